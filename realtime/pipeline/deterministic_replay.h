@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "hal/frame_source.h"
+#include "slam/odometry.h"
+
+namespace sparsight {
+
+// One line of the session's journal.
+struct FrameRecord {
+  std::uint64_t sequence = 0;
+  HostTime exposure;
+  FrameOutcome outcome;
+  std::chrono::nanoseconds tracking_time{};  // Odometry::track
+  std::chrono::nanoseconds window_time{};    // Odometry::add_keyframe, zero if not called
+  std::vector<Error> faults;
+};
+
+struct TrajectoryPose {
+  std::uint64_t sequence = 0;
+  HostTime exposure;
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+};
+
+struct ReplayCallbacks {
+  std::function<void(const FrameRecord&)> on_frame;
+  std::function<void(RetiredKeyframe&&)> on_keyframe;
+};
+
+// Runs the stages on one schedule, without threads or a wall clock: the same frames give the same
+// bytes. Returns one pose per frame, each re-anchored to the final pose of its keyframe.
+// max_frames: stop early.
+std::vector<TrajectoryPose> replay_deterministic(FrameSource& source, Odometry& odometry,
+                                                 std::optional<std::size_t> max_frames,
+                                                 const ReplayCallbacks& callbacks);
+
+}  // namespace sparsight

@@ -1,0 +1,11 @@
+#include <CLI/CLI.hpp>
+
+#include "tools/sparsight/subcommands.h"
+
+namespace sparsight {
+
+void add_evaluate(CLI::App& app, int& exit_code) {
+  app.add_subcommand("evaluate", "")->callback([&exit_code] { exit_code = 1; });
+}
+
+}  // namespace sparsight

@@ -1,0 +1,18 @@
+#include <CLI/CLI.hpp>
+
+#include "tools/sparsight/subcommands.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{"Direct visual SLAM on sparse LiDAR depth"};
+  app.require_subcommand(1);
+  int exit_code = 0;
+  sparsight::add_replay(app, exit_code);
+  sparsight::add_evaluate(app, exit_code);
+  sparsight::add_benchmark(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  return exit_code;
+}
