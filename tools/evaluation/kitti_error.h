@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "hal/time.h"
+
 namespace sparsight {
 
 // Poses of the same instants, in order: the ground truth's and the estimate's.
