@@ -1,0 +1,56 @@
+#pragma once
+
+#include "slam/odometry.h"
+
+namespace sparsight {
+
+// Both ends belong to the range.
+struct FieldRange {
+  double min;
+  double max;
+};
+
+inline constexpr FieldRange kShare{0.0, 1.0};
+
+// The configuration as files see it: a table per struct, a key per field, nested as the modules
+// nest. A field that is missing here cannot be configured; a test counts them. A Visitor has
+//   field(key, number, range), field(key, bool), choice(key, enumerator, names), table(key,
+//   struct).
+
+template <typename Visitor>
+void visit_fields(Visitor& profile, PointSelectionConfig& points) {
+  profile.field("bin_deg", points.bin_deg, {0.05, 45.0});
+  profile.field("min_depth_m", points.min_depth_m, {0.0, 100.0});
+  profile.field("max_depth_m", points.max_depth_m, {1.0, 1000.0});
+  profile.field("reject_depth_edges", points.reject_depth_edges);
+  profile.field("reject_hidden", points.reject_hidden);
+}
+
+template <typename Visitor>
+void visit_fields(Visitor& profile, TrackerConfig& tracker) {
+  profile.field("pyramid_levels", tracker.pyramid_levels, {1, 10});
+  profile.field("max_iterations", tracker.max_iterations, {1, 1000});
+  profile.field("student_t_dof", tracker.student_t_dof, {0.1, 1000.0});
+}
+
+template <typename Visitor>
+void visit_fields(Visitor& profile, KeyframeConfig& keyframes) {
+  profile.field("min_visible_ratio", keyframes.min_visible_ratio, kShare);
+  profile.field("max_age_s", keyframes.max_age_s, {0.0, 3600.0});
+}
+
+template <typename Visitor>
+void visit_fields(Visitor& profile, WindowConfig& window) {
+  profile.field("size", window.size, {2, 50});
+  profile.field("max_iterations", window.max_iterations, {0, 1000});
+}
+
+template <typename Visitor>
+void visit_fields(Visitor& profile, OdometryConfig& odometry) {
+  profile.table("points", odometry.points);
+  profile.table("tracker", odometry.tracker);
+  profile.table("keyframes", odometry.keyframes);
+  profile.table("window", odometry.window);
+}
+
+}  // namespace sparsight
