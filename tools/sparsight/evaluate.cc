@@ -1,11 +1,107 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
 
+#include "tools/evaluation/evaluation_files.h"
+#include "tools/evaluation/evaluation_report.h"
 #include "tools/sparsight/subcommands.h"
 
 namespace sparsight {
+namespace {
+
+struct EvaluateArguments {
+  std::string estimate;
+  std::string truth;
+  std::string times;
+  std::string format = "auto";
+  std::vector<double> lengths_m = SegmentOptions{}.lengths_m;
+  std::size_t step_frames = SegmentOptions{}.step_frames;
+  std::size_t rpe_delta_frames = 1;
+  double max_time_difference_s = 0.02;
+  bool json = false;
+};
+
+EvaluationFiles files_of(const EvaluateArguments& arguments) {
+  EvaluationFiles files{.estimate = arguments.estimate, .truth = arguments.truth};
+  if (!arguments.times.empty()) {
+    files.times = arguments.times;
+  }
+  if (arguments.format != "auto") {
+    files.format = arguments.format == "kitti" ? TrajectoryFormat::kKitti : TrajectoryFormat::kTum;
+  }
+  return files;
+}
+
+EvaluationOptions options_of(const EvaluateArguments& arguments) {
+  EvaluationOptions options{
+      .segments = {.lengths_m = arguments.lengths_m, .step_frames = arguments.step_frames},
+      .rpe_delta_frames = arguments.rpe_delta_frames};
+  options.max_time_difference = std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(arguments.max_time_difference_s));
+  auto& lengths = options.segments.lengths_m;
+  std::ranges::sort(lengths);
+  lengths.erase(std::ranges::unique(lengths).begin(), lengths.end());
+  return options;
+}
+
+int evaluate(const EvaluateArguments& arguments) {
+  const auto pair = read_trajectories(files_of(arguments));
+  if (!pair) {
+    std::fprintf(stderr, "sparsight evaluate: %s\n", pair.error().message.c_str());
+    return 1;
+  }
+  const auto evaluation = evaluate_trajectories(pair->estimate, pair->truth, options_of(arguments));
+  if (!evaluation) {
+    std::fprintf(stderr, "sparsight evaluate: %s\n", evaluation.error().message.c_str());
+    return 1;
+  }
+  const EvaluatedFiles files{pair->estimate.source, pair->truth.source};
+  const std::string report =
+      arguments.json ? evaluation_json(*evaluation, files) : evaluation_table(*evaluation, files);
+  std::fputs(report.c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
 
 void add_evaluate(CLI::App& app, int& exit_code) {
-  app.add_subcommand("evaluate", "")->callback([&exit_code] { exit_code = 1; });
+  auto arguments = std::make_shared<EvaluateArguments>();
+  CLI::App* command =
+      app.add_subcommand("evaluate", "Measure a trajectory's error against ground truth");
+  command->add_option("ESTIMATE", arguments->estimate, "Trajectory file, or a session folder")
+      ->required();
+  command
+      ->add_option("--ground-truth", arguments->truth,
+                   "Trajectory file: KITTI (12 numbers a line) or TUM (t tx ty tz qx qy qz qw)")
+      ->required();
+  command->add_option("--times", arguments->times,
+                      "KITTI times.txt; needed where one trajectory is KITTI and the other TUM");
+  command->add_option("--format", arguments->format, "Format of ESTIMATE")
+      ->check(CLI::IsMember({"auto", "kitti", "tum"}))
+      ->capture_default_str();
+  command
+      ->add_option("--lengths", arguments->lengths_m,
+                   "Segment lengths in metres; 10,20,30,40,50 for short drives")
+      ->delimiter(',')
+      ->allow_extra_args(false)  // or it would take ESTIMATE for a length
+      ->check(CLI::Range(1e-3, 1e9).description("> 0"))
+      ->capture_default_str();
+  command->add_option("--step", arguments->step_frames, "Frames between the starts of segments")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
+      ->capture_default_str();
+  command->add_option("--rpe-delta", arguments->rpe_delta_frames, "Frames a motion of RPE spans")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
+      ->capture_default_str();
+  command
+      ->add_option("--max-time-difference", arguments->max_time_difference_s,
+                   "Seconds between poses that count as simultaneous")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command->add_flag("--json", arguments->json, "Print JSON, for machines");
+  command->callback([arguments, &exit_code] { exit_code = evaluate(*arguments); });
 }
 
 }  // namespace sparsight
