@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "hal/frame_source.h"
+#include "slam/keyframe.h"
 #include "slam/points/point_selection.h"
 #include "slam/tracking/tracker.h"
 #include "slam/window/window_optimizer.h"
@@ -24,13 +24,6 @@ struct OdometryConfig {
   TrackerConfig tracker;
   KeyframeConfig keyframes;
   WindowConfig window;
-};
-
-// A return the camera saw, with its colour (grey cameras: r = g = b). For the map.
-struct CloudPoint {
-  Eigen::Vector3f p_camera;  // keyframe's camera frame at its exposure, metres
-  float intensity = 0.0F;    // as the LiDAR gave it
-  std::array<std::uint8_t, 3> rgb{};
 };
 
 // A keyframe that has left the window: its pose is final for the odometry.
@@ -56,11 +49,9 @@ struct FrameOutcome {
     kPredicted,  // not measured: no image, or tracking failed from every start
   };
   Status status = Status::kPredicted;
-  TrackingResult tracking;              // of the last attempt
-  std::uint64_t keyframe_sequence = 0;  // the keyframe it was tracked against
+  TrackingResult tracking;              // of the best attempt; its pose is the predicted one if none
+  std::uint64_t keyframe_sequence = 0;  // the keyframe T_keyframe_camera refers to
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();  // as known at that moment
-  double visible_ratio = 0.0;
-  int attempts = 0;  // starting motions tried
   bool becomes_keyframe = false;
 };
 

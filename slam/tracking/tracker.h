@@ -2,25 +2,62 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <vector>
+
+#include "slam/geometry/camera_model.h"
+#include "slam/geometry/se3.h"
+#include "slam/keyframe.h"
+#include "slam/tracking/photometric_alignment.h"
 
 namespace sparsight {
 
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
 struct TrackerConfig {
   int pyramid_levels = 4;
-  int max_iterations = 30;     // per level
-  double student_t_dof = 5.0;  // nu of eq. (5)
+  AlignmentConfig alignment;
+  PatchConfig patches;
+  // Starts at the level where the expected error of the start is about a pixel; otherwise always at
+  // the coarsest. At speed, coarse levels lead away from a good start.
+  bool automatic_top_level = false;
+  bool try_other_starts = true;
+  int min_points = 30;             // visible patches, fewer cannot be tracked
+  double min_correlation = 0.5;    // of the patches with the image, below: diverged
 };
 
 struct TrackingResult {
   enum class Status : std::uint8_t { kConverged, kIterationLimit, kTooFewPoints, kDiverged };
   Status status = Status::kTooFewPoints;
   Eigen::Isometry3d T_keyframe_camera = Eigen::Isometry3d::Identity();
-  Matrix6d information = Matrix6d::Zero();  // left perturbation, [rotation, translation], eq. (2)
+  Matrix6d information = Matrix6d::Zero();  // left perturbation of T_camera_keyframe, eq. (2)
+  Brightness brightness;
   int points_used = 0;
+  double visible_ratio = 0.0;  // share of the keyframe's points that project into the image
   double residual_sigma_grey = 0.0;
+  double correlation = 0.0;    // median over the patches of their correlation with the image
+  int top_level = 0;
+  int attempts = 0;            // starting motions tried
+
+  bool ok() const { return status == Status::kConverged || status == Status::kIterationLimit; }
+};
+
+// Direct tracking of a frame against a keyframe, Sec. IV-C. Thread-bound.
+class Tracker {
+ public:
+  Tracker(const CameraModel& camera, const TrackerConfig& config);
+
+  // The starts are tried in their order until one succeeds. start_error_px: how far the first start
+  // may be off in the image.
+  TrackingResult track(const Keyframe& keyframe, const ImagePyramid& image,
+                       const std::vector<Eigen::Isometry3d>& starts_T_keyframe_camera,
+                       const Brightness& start_brightness, double start_error_px);
+
+ private:
+  TrackingResult track_from(const Keyframe& keyframe, const ImagePyramid& image,
+                            const Eigen::Isometry3d& start_T_keyframe_camera,
+                            const Brightness& start_brightness, int top_level);
+
+  TrackerConfig config_;
+  std::vector<CameraModel> cameras_;  // per level
+  AlignmentWorkspace workspace_;
 };
 
 }  // namespace sparsight

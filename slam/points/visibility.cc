@@ -1,0 +1,70 @@
+#include "slam/points/visibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace sparsight {
+namespace {
+
+// A jump is a change of range beyond this share of the nearer range and beyond sensor noise. Walls
+// seen at 5 degrees change by 3 % between neighbouring firings of an HDL-64, 8 % of a VLP-16.
+constexpr float kJumpShare = 0.1F;
+constexpr float kRangeNoise = 0.1F;  // metres
+// Farther apart than this, two firings of a ring are not neighbours: something did not return.
+constexpr float kNeighborCosine = 0.99985F;  // 1 degree
+
+constexpr double kCellRad = 0.25 * M_PI / 180.0;  // hidden within one to two cells
+constexpr float kHiddenShare = 0.75F;             // nearer than this share of the depth
+
+bool jump_between(const CameraReturn& a, const CameraReturn& b) {
+  const float range_a = a.p_camera.norm();
+  const float range_b = b.p_camera.norm();
+  const float nearer = std::min(range_a, range_b);
+  if (a.p_camera.dot(b.p_camera) < kNeighborCosine * range_a * range_b) return false;
+  return std::abs(range_a - range_b) > std::max(kRangeNoise, kJumpShare * nearer);
+}
+
+}  // namespace
+
+std::vector<bool> on_depth_edge(const std::vector<CameraReturn>& returns) {
+  std::vector<bool> edge(returns.size(), false);
+  for (std::size_t i = 0; i + 1 < returns.size(); ++i) {
+    if (returns[i].ring != returns[i + 1].ring || !jump_between(returns[i], returns[i + 1])) continue;
+    edge[i] = edge[i + 1] = true;
+  }
+  return edge;
+}
+
+std::vector<bool> hidden_from_camera(const std::vector<CameraReturn>& returns,
+                                     const CameraModel& camera) {
+  const CameraIntrinsics& c = camera.intrinsics();
+  const auto cell_px = static_cast<float>(std::max(1.0, c.fx * kCellRad));
+  const int columns = static_cast<int>(static_cast<float>(c.width) / cell_px) + 3;
+  const int rows = static_cast<int>(static_cast<float>(c.height) / cell_px) + 3;
+  const auto cell_of = [&](const CameraReturn& r) {
+    const int column = 1 + static_cast<int>(r.pixel.x() / cell_px);
+    const int row = 1 + static_cast<int>(r.pixel.y() / cell_px);
+    return row * columns + column;
+  };
+
+  std::vector<float> nearest(static_cast<std::size_t>(rows * columns), 1e9F);
+  for (const CameraReturn& r : returns) {
+    float& depth = nearest[static_cast<std::size_t>(cell_of(r))];
+    depth = std::min(depth, r.p_camera.z());
+  }
+  std::vector<bool> hidden(returns.size(), false);
+  for (std::size_t i = 0; i < returns.size(); ++i) {
+    const int cell = cell_of(returns[i]);
+    float depth = 1e9F;
+    for (const int row : {-columns, 0, columns}) {
+      for (const int column : {-1, 0, 1}) {
+        depth = std::min(depth, nearest[static_cast<std::size_t>(cell + row + column)]);
+      }
+    }
+    hidden[i] = depth < kHiddenShare * returns[i].p_camera.z();
+  }
+  return hidden;
+}
+
+}  // namespace sparsight

@@ -1,0 +1,59 @@
+#include "slam/tracking/patch_correlation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace sparsight {
+namespace {
+
+constexpr double kTextureGrey = 4.0;  // standard deviation from which a patch has texture
+
+struct Moments {
+  double n = 0.0, a = 0.0, b = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
+
+  void add(double x, double y) {
+    n += 1.0;
+    a += x;
+    b += y;
+    aa += x * x;
+    bb += y * y;
+    ab += x * y;
+  }
+  double variance_a() const { return aa / n - a * a / (n * n); }
+  double variance_b() const { return bb / n - b * b / (n * n); }
+  double correlation() const {
+    const double covariance = ab / n - a * b / (n * n);
+    return covariance / std::sqrt(std::max(variance_a() * variance_b(), 1e-9));
+  }
+};
+
+}  // namespace
+
+PatchAgreement patch_agreement(const PatchSet& patches, const Linearization& linearization,
+                               const Brightness& brightness) {
+  PatchAgreement result;
+  std::vector<double> correlations;
+  correlations.reserve(patches.patches);
+  for (std::size_t patch = 0; patch < patches.patches; ++patch) {
+    const std::size_t first = patch * kPatternSize;
+    if (linearization.weight[first] <= 0.0F) continue;  // the pattern's first pixel is its centre
+    ++result.visible_patches;
+    Moments m;
+    for (std::size_t i = first; i < first + kPatternSize; ++i) {
+      if (linearization.weight[i] <= 0.0F) continue;
+      const double reference = patches.intensity[i];
+      m.add(reference, linearization.residual[i] + brightness.gain * reference + brightness.offset);
+    }
+    if (m.variance_a() < kTextureGrey * kTextureGrey) continue;
+    correlations.push_back(m.correlation());
+  }
+  if (correlations.empty()) return result;
+  const auto middle = correlations.begin() + static_cast<std::ptrdiff_t>(correlations.size() / 2);
+  std::nth_element(correlations.begin(), middle, correlations.end());
+  result.median_correlation = *middle;
+  return result;
+}
+
+}  // namespace sparsight

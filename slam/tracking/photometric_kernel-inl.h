@@ -1,0 +1,301 @@
+// The vector code of photometric_kernel.cc, compiled once per instruction set (hence no plain
+// include guard; see Highway's g3doc/quick_reference.md).
+
+#include <hwy/highway.h>
+
+#include <array>
+#include <cstdint>
+
+#include "slam/tracking/photometric_kernel.h"
+
+#ifndef SPARSIGHT_SLAM_TRACKING_PHOTOMETRIC_KERNEL_PLAIN_
+#define SPARSIGHT_SLAM_TRACKING_PHOTOMETRIC_KERNEL_PLAIN_
+namespace sparsight {
+
+// Sums are kept in this many lanes on every machine, so that they do not depend on its vector
+// width.
+inline constexpr std::size_t kSumLanes = PatchSet::kBlock;
+using LaneSums = std::array<float, kSumLanes>;
+
+// Upper triangle of H row by row, then b.
+inline constexpr std::size_t kNormalSums =
+    NormalEquations::kSize * (NormalEquations::kSize + 1) / 2 + NormalEquations::kSize;
+using NormalSums = std::array<LaneSums, kNormalSums>;
+
+struct ProjectionParameters {
+  std::array<float, 12> T{};  // T_camera_keyframe, 3x4, row by row
+  float fx = 0.0F, fy = 0.0F, cx = 0.0F, cy = 0.0F;
+  std::array<float, 5> distortion{};  // k1 k2 p1 p2 k3
+  bool distorted = false;
+  float max_radius2 = 0.0F;
+  float gain = 1.0F, offset = 0.0F;
+  const std::uint8_t* pixels = nullptr;
+  int width = 0, height = 0;
+};
+
+}  // namespace sparsight
+#endif
+
+#if defined(SPARSIGHT_SLAM_TRACKING_PHOTOMETRIC_KERNEL_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPARSIGHT_SLAM_TRACKING_PHOTOMETRIC_KERNEL_INL_
+#undef SPARSIGHT_SLAM_TRACKING_PHOTOMETRIC_KERNEL_INL_
+#else
+#define SPARSIGHT_SLAM_TRACKING_PHOTOMETRIC_KERNEL_INL_
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace sparsight {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using F = hn::CappedTag<float, kSumLanes>;
+using I = hn::RebindToSigned<F>;
+using VF = hn::Vec<F>;
+using VI = hn::Vec<I>;
+
+// Grey value and gradient, as in slam/image/interpolation.h.
+struct VectorSample {
+  VF value, du, dv;
+};
+
+// Four neighbouring pixels of a row in the bytes of one 32-bit lane, leftmost lowest.
+template <int kByte>
+HWY_INLINE VF pixel(VI row) {
+  return hn::ConvertTo(F(), hn::And(hn::ShiftRight<8 * kByte>(row), hn::Set(I(), 0xFF)));
+}
+
+HWY_INLINE VF blend(VF from, VF to, VF share) { return hn::MulAdd(share, hn::Sub(to, from), from); }
+
+HWY_INLINE VectorSample sample_pixels(const ProjectionParameters& p, VF u, VF v) {
+  const F f;
+  const I i;
+  const VI u0 = hn::ConvertTo(i, u);
+  const VI v0 = hn::ConvertTo(i, v);
+  const VF a = hn::Sub(u, hn::ConvertTo(f, u0));
+  const VF b = hn::Sub(v, hn::ConvertTo(f, v0));
+  const VI width = hn::Set(i, p.width);
+  const VI above = hn::Sub(hn::Add(hn::Mul(hn::Sub(v0, hn::Set(i, 1)), width), u0), hn::Set(i, 1));
+  const auto* base = reinterpret_cast<const std::int32_t*>(p.pixels);
+  const VI row0 = hn::GatherOffset(i, base, above);
+  const VI row1 = hn::GatherOffset(i, base, hn::Add(above, width));
+  const VI row2 = hn::GatherOffset(i, base, hn::Add(above, hn::Add(width, width)));
+  const VI row3 = hn::GatherOffset(i, base, hn::Add(above, hn::Mul(hn::Set(i, 3), width)));
+
+  const VF half = hn::Set(f, 0.5F);
+  const VF line0 = blend(pixel<1>(row0), pixel<2>(row0), a);
+  const VF line1 = blend(pixel<1>(row1), pixel<2>(row1), a);
+  const VF line2 = blend(pixel<1>(row2), pixel<2>(row2), a);
+  const VF line3 = blend(pixel<1>(row3), pixel<2>(row3), a);
+  const VF slope1 =
+      hn::Sub(blend(pixel<2>(row1), pixel<3>(row1), a), blend(pixel<0>(row1), pixel<1>(row1), a));
+  const VF slope2 =
+      hn::Sub(blend(pixel<2>(row2), pixel<3>(row2), a), blend(pixel<0>(row2), pixel<1>(row2), a));
+  return {blend(line1, line2, b), hn::Mul(half, blend(slope1, slope2, b)),
+          hn::Mul(half, blend(hn::Sub(line2, line0), hn::Sub(line3, line1), b))};
+}
+
+// Normalised coordinates in, distorted ones out, and the 2x2 derivative (Brown–Conrady).
+struct VectorDistortion {
+  VF x, y, xx, xy, yy;
+};
+
+HWY_INLINE VectorDistortion distort(const ProjectionParameters& p, VF x, VF y) {
+  const F f;
+  const VF one = hn::Set(f, 1.0F);
+  if (!p.distorted) return {x, y, one, hn::Zero(f), one};
+  const VF k1 = hn::Set(f, p.distortion[0]);
+  const VF k2 = hn::Set(f, p.distortion[1]);
+  const VF p1 = hn::Set(f, 2.0F * p.distortion[2]);
+  const VF p2 = hn::Set(f, 2.0F * p.distortion[3]);
+  const VF k3 = hn::Set(f, p.distortion[4]);
+  const VF half = hn::Set(f, 0.5F);
+  const VF three = hn::Set(f, 3.0F);
+  const VF x2 = hn::Mul(x, x);
+  const VF y2 = hn::Mul(y, y);
+  const VF xy = hn::Mul(x, y);
+  const VF r2 = hn::Add(x2, y2);
+  const VF radial = hn::MulAdd(r2, hn::MulAdd(r2, hn::MulAdd(r2, k3, k2), k1), one);
+  const VF d_radial = hn::Mul(
+      hn::Set(f, 2.0F), hn::MulAdd(r2, hn::MulAdd(r2, hn::Mul(three, k3), hn::Add(k2, k2)), k1));
+  const VF cross = hn::MulAdd(xy, d_radial, hn::MulAdd(p1, x, hn::Mul(p2, y)));
+  return {
+      hn::MulAdd(x, radial, hn::MulAdd(p1, xy, hn::Mul(p2, hn::MulAdd(half, r2, x2)))),
+      hn::MulAdd(y, radial, hn::MulAdd(p2, xy, hn::Mul(p1, hn::MulAdd(half, r2, y2)))),
+      hn::Add(hn::MulAdd(x2, d_radial, radial), hn::MulAdd(p1, y, hn::Mul(three, hn::Mul(p2, x)))),
+      cross,
+      hn::Add(hn::MulAdd(y2, d_radial, radial), hn::MulAdd(p2, x, hn::Mul(three, hn::Mul(p1, y))))};
+}
+
+HWY_INLINE VF transformed(const ProjectionParameters& p, int row, VF x, VF y, VF z) {
+  const F f;
+  const float* r = p.T.data() + 4 * row;
+  return hn::MulAdd(
+      hn::Set(f, r[0]), x,
+      hn::MulAdd(hn::Set(f, r[1]), y, hn::MulAdd(hn::Set(f, r[2]), z, hn::Set(f, r[3]))));
+}
+
+HWY_INLINE void linearize_block(const PatchSet& patches, const ProjectionParameters& p,
+                                std::size_t at, Linearization& out) {
+  const F f;
+  const VF X = hn::LoadU(f, patches.x.data() + at);
+  const VF Y = hn::LoadU(f, patches.y.data() + at);
+  const VF Z = hn::LoadU(f, patches.z.data() + at);
+  const VF x = transformed(p, 0, X, Y, Z);
+  const VF y = transformed(p, 1, X, Y, Z);
+  const VF z = transformed(p, 2, X, Y, Z);
+
+  const VF one = hn::Set(f, 1.0F);
+  const auto in_front = hn::Gt(z, hn::Set(f, 1e-3F));
+  const VF inverse_z = hn::Div(one, hn::IfThenElse(in_front, z, one));
+  const VF xn = hn::Mul(x, inverse_z);
+  const VF yn = hn::Mul(y, inverse_z);
+  const VF radius2 = hn::MulAdd(xn, xn, hn::Mul(yn, yn));
+  const VectorDistortion d = distort(p, xn, yn);
+  const VF u = hn::MulAdd(hn::Set(f, p.fx), d.x, hn::Set(f, p.cx));
+  const VF v = hn::MulAdd(hn::Set(f, p.fy), d.y, hn::Set(f, p.cy));
+  // Written so that NaN is outside.
+  const auto inside =
+      hn::And(hn::And(in_front, hn::Le(radius2, hn::Set(f, p.max_radius2))),
+              hn::And(hn::And(hn::Ge(u, one), hn::Ge(v, one)),
+                      hn::And(hn::Lt(u, hn::Set(f, static_cast<float>(p.width - 2))),
+                              hn::Lt(v, hn::Set(f, static_cast<float>(p.height - 2))))));
+  const VectorSample s =
+      sample_pixels(p, hn::IfThenElse(inside, u, one), hn::IfThenElse(inside, v, one));
+
+  // Chain rule: image gradient, distortion, perspective division.
+  const VF fu = hn::Mul(hn::Set(f, p.fx), s.du);
+  const VF fv = hn::Mul(hn::Set(f, p.fy), s.dv);
+  const VF gx = hn::Mul(inverse_z, hn::MulAdd(d.xx, fu, hn::Mul(d.xy, fv)));
+  const VF gy = hn::Mul(inverse_z, hn::MulAdd(d.xy, fu, hn::Mul(d.yy, fv)));
+  const VF gz = hn::Neg(hn::MulAdd(gx, xn, hn::Mul(gy, yn)));
+
+  const VF expected = hn::MulAdd(hn::Set(f, p.gain), hn::LoadU(f, patches.intensity.data() + at),
+                                 hn::Set(f, p.offset));
+  const auto keep = [&](VF value) { return hn::IfThenElseZero(inside, value); };
+  hn::StoreU(keep(hn::Sub(s.value, expected)), f, out.residual.data() + at);
+  hn::StoreU(keep(hn::LoadU(f, patches.weight.data() + at)), f, out.weight.data() + at);
+  // d_residual_d_xi = [q x g, g] for a left increment on q = T p.
+  hn::StoreU(keep(hn::NegMulAdd(z, gy, hn::Mul(y, gz))), f, out.J[0].data() + at);
+  hn::StoreU(keep(hn::NegMulAdd(x, gz, hn::Mul(z, gx))), f, out.J[1].data() + at);
+  hn::StoreU(keep(hn::NegMulAdd(y, gx, hn::Mul(x, gy))), f, out.J[2].data() + at);
+  hn::StoreU(keep(gx), f, out.J[3].data() + at);
+  hn::StoreU(keep(gy), f, out.J[4].data() + at);
+  hn::StoreU(keep(gz), f, out.J[5].data() + at);
+}
+
+void linearize_entries(const PatchSet& patches, const ProjectionParameters& p, Linearization& out) {
+  const std::size_t step = hn::Lanes(F());
+  for (std::size_t at = 0; at < patches.entries(); at += step) linearize_block(patches, p, at, out);
+}
+
+// w(r) of eq. (5) times the entry's own weight.
+HWY_INLINE VF total_weight(const Linearization& l, std::size_t at, VF residual, float dof,
+                           float inverse_sigma2) {
+  const F f;
+  const VF r2 = hn::Mul(residual, residual);
+  const VF robust =
+      hn::Div(hn::Set(f, dof + 1.0F), hn::MulAdd(r2, hn::Set(f, inverse_sigma2), hn::Set(f, dof)));
+  return hn::Mul(robust, hn::LoadU(f, l.weight.data() + at));
+}
+
+void weighted_square_sums(const Linearization& l, float dof, float inverse_sigma2,
+                          LaneSums& squares, LaneSums& weights) {
+  const F f;
+  const std::size_t step = hn::Lanes(f);
+  for (std::size_t lane = 0; lane < kSumLanes; lane += step) {
+    VF square_sum = hn::Zero(f);
+    VF weight_sum = hn::Zero(f);
+    for (std::size_t at = lane; at < l.residual.size(); at += kSumLanes) {
+      const VF r = hn::LoadU(f, l.residual.data() + at);
+      const VF w = total_weight(l, at, r, dof, inverse_sigma2);
+      square_sum = hn::MulAdd(w, hn::Mul(r, r), square_sum);
+      weight_sum = hn::Add(weight_sum, hn::LoadU(f, l.weight.data() + at));
+    }
+    hn::StoreU(square_sum, f, squares.data() + lane);
+    hn::StoreU(weight_sum, f, weights.data() + lane);
+  }
+}
+
+// log(1 + t) for t >= 0, to 1e-6: exponent by bits, then the series of 2 artanh.
+HWY_INLINE VF log1p_positive(VF t) {
+  const F f;
+  const I i;
+  const VF x = hn::Add(t, hn::Set(f, 1.0F));
+  const VI bits = hn::BitCast(i, x);
+  const VI exponent = hn::Sub(hn::ShiftRight<23>(bits), hn::Set(i, 127));
+  const VF mantissa =
+      hn::BitCast(f, hn::Or(hn::And(bits, hn::Set(i, 0x007FFFFF)), hn::Set(i, 0x3F800000)));
+  const VF one = hn::Set(f, 1.0F);
+  const VF s = hn::Div(hn::Sub(mantissa, one), hn::Add(mantissa, one));  // 0 .. 1/3
+  const VF s2 = hn::Mul(s, s);
+  VF series = hn::Set(f, 2.0F / 11.0F);
+  series = hn::MulAdd(series, s2, hn::Set(f, 2.0F / 9.0F));
+  series = hn::MulAdd(series, s2, hn::Set(f, 2.0F / 7.0F));
+  series = hn::MulAdd(series, s2, hn::Set(f, 2.0F / 5.0F));
+  series = hn::MulAdd(series, s2, hn::Set(f, 2.0F / 3.0F));
+  series = hn::MulAdd(series, s2, hn::Set(f, 2.0F));
+  return hn::MulAdd(hn::ConvertTo(f, exponent), hn::Set(f, 0.6931472F), hn::Mul(series, s));
+}
+
+// sum of w/2 * log(1 + r^2 / (nu sigma^2)); scale = 1 / (nu sigma^2).
+void log_likelihood_sums(const Linearization& l, float scale, LaneSums& costs, LaneSums& weights) {
+  const F f;
+  const std::size_t step = hn::Lanes(f);
+  for (std::size_t lane = 0; lane < kSumLanes; lane += step) {
+    VF cost_sum = hn::Zero(f);
+    VF weight_sum = hn::Zero(f);
+    for (std::size_t at = lane; at < l.residual.size(); at += kSumLanes) {
+      const VF r = hn::LoadU(f, l.residual.data() + at);
+      const VF w = hn::LoadU(f, l.weight.data() + at);
+      const VF cost = log1p_positive(hn::Mul(hn::Mul(r, r), hn::Set(f, scale)));
+      cost_sum = hn::MulAdd(hn::Mul(hn::Set(f, 0.5F), w), cost, cost_sum);
+      weight_sum = hn::Add(weight_sum, w);
+    }
+    hn::StoreU(cost_sum, f, costs.data() + lane);
+    hn::StoreU(weight_sum, f, weights.data() + lane);
+  }
+}
+
+// One block into the 44 running sums. Rows 6 and 7 are d_r / d_gain = -I_m and d_r / d_offset = -1.
+HWY_INLINE void accumulate_block(const PatchSet& patches, const Linearization& l, std::size_t at,
+                                 float dof, float inverse_sigma2, VF* HWY_RESTRICT sums) {
+  const F f;
+  constexpr int kSize = NormalEquations::kSize;
+  const VF r = hn::LoadU(f, l.residual.data() + at);
+  const VF w = total_weight(l, at, r, dof, inverse_sigma2);
+  VF J[kSize];
+  for (int k = 0; k < 6; ++k) J[k] = hn::LoadU(f, l.J[k].data() + at);
+  J[6] = hn::Neg(hn::LoadU(f, patches.intensity.data() + at));
+  J[7] = hn::Set(f, -1.0F);
+  int next = 0;
+#pragma GCC unroll 8
+  for (int row = 0; row < kSize; ++row) {
+    const VF wj = hn::Mul(w, J[row]);
+#pragma GCC unroll 8
+    for (int column = row; column < kSize; ++column) {
+      sums[next] = hn::MulAdd(wj, J[column], sums[next]);
+      ++next;
+    }
+    sums[kNormalSums - kSize + row] = hn::MulAdd(wj, r, sums[kNormalSums - kSize + row]);
+  }
+}
+
+void normal_equation_sums(const PatchSet& patches, const Linearization& l, float dof,
+                          float inverse_sigma2, NormalSums& out) {
+  const F f;
+  const std::size_t step = hn::Lanes(f);
+  for (std::size_t lane = 0; lane < kSumLanes; lane += step) {
+    VF sums[kNormalSums];
+    for (VF& sum : sums) sum = hn::Zero(f);
+    for (std::size_t at = lane; at < l.residual.size(); at += kSumLanes) {
+      accumulate_block(patches, l, at, dof, inverse_sigma2, sums);
+    }
+    for (std::size_t k = 0; k < kNormalSums; ++k) hn::StoreU(sums[k], f, out[k].data() + lane);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sparsight
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

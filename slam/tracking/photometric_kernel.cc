@@ -1,0 +1,130 @@
+#include "slam/tracking/photometric_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "slam/tracking/photometric_kernel.cc"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "slam/tracking/photometric_kernel-inl.h"
+
+#if HWY_ONCE
+namespace sparsight {
+
+HWY_EXPORT(linearize_entries);
+HWY_EXPORT(weighted_square_sums);
+HWY_EXPORT(log_likelihood_sums);
+HWY_EXPORT(normal_equation_sums);
+
+namespace {
+
+double total(const LaneSums& lanes) {
+  double sum = 0.0;
+  for (const float lane : lanes) sum += static_cast<double>(lane);
+  return sum;
+}
+
+ProjectionParameters projection_parameters(const GreyImage& image, const CameraModel& camera,
+                                           const Eigen::Isometry3d& T,
+                                           const Brightness& brightness) {
+  const CameraIntrinsics& c = camera.intrinsics();
+  ProjectionParameters p;
+  const Eigen::Matrix<float, 3, 4> T_float = T.matrix().topRows<3>().cast<float>();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) p.T[4 * row + column] = T_float(row, column);
+  }
+  p.fx = static_cast<float>(c.fx);
+  p.fy = static_cast<float>(c.fy);
+  p.cx = static_cast<float>(c.cx);
+  p.cy = static_cast<float>(c.cy);
+  p.distortion = {static_cast<float>(c.k1), static_cast<float>(c.k2), static_cast<float>(c.p1),
+                  static_cast<float>(c.p2), static_cast<float>(c.k3)};
+  p.distorted = c.distorted();
+  p.max_radius2 = static_cast<float>(camera.max_radius2());
+  p.gain = static_cast<float>(brightness.gain);
+  p.offset = static_cast<float>(brightness.offset);
+  p.pixels = image.pixels.data();
+  p.width = image.width;
+  p.height = image.height;
+  return p;
+}
+
+}  // namespace
+
+void Linearization::resize(std::size_t entries) {
+  residual.resize(entries);
+  weight.resize(entries);
+  for (std::vector<float>& column : J) column.resize(entries);
+}
+
+void linearize(const PatchSet& patches, const GreyImage& image, const CameraModel& camera,
+               const Eigen::Isometry3d& T_camera_keyframe, const Brightness& brightness,
+               Linearization& out) {
+  out.resize(patches.entries());
+  HWY_DYNAMIC_DISPATCH(linearize_entries)
+  (patches, projection_parameters(image, camera, T_camera_keyframe, brightness), out);
+}
+
+double estimate_sigma(const Linearization& linearization, double student_t_dof,
+                      double sigma_start) {
+  constexpr int kMaxIterations = 20;
+  constexpr double kRelativeTolerance = 1e-3;
+  double sigma = std::max(sigma_start, kMinSigma);
+  for (int i = 0; i < kMaxIterations; ++i) {
+    LaneSums squares;
+    LaneSums weights;
+    HWY_DYNAMIC_DISPATCH(weighted_square_sums)
+    (linearization, static_cast<float>(student_t_dof), static_cast<float>(1.0 / (sigma * sigma)),
+     squares, weights);
+    const double weight = total(weights);
+    if (weight <= 0.0) return sigma;
+    const double updated = std::max(std::sqrt(total(squares) / weight), kMinSigma);
+    const bool settled = std::abs(updated - sigma) < kRelativeTolerance * sigma;
+    sigma = updated;
+    if (settled) break;
+  }
+  return sigma;
+}
+
+double robust_cost(const Linearization& linearization, double student_t_dof, double sigma) {
+  LaneSums costs;
+  LaneSums weights;
+  HWY_DYNAMIC_DISPATCH(log_likelihood_sums)
+  (linearization, static_cast<float>(1.0 / (student_t_dof * sigma * sigma)), costs, weights);
+  const double weight = total(weights);
+  if (weight <= 0.0) return std::numeric_limits<double>::infinity();
+  return (student_t_dof + 1.0) * sigma * sigma * total(costs) / weight;
+}
+
+double visible_share(const PatchSet& patches, const Linearization& linearization) {
+  double visible = 0.0;
+  double all = 0.0;
+  for (std::size_t i = 0; i < patches.entries(); ++i) {
+    visible += static_cast<double>(linearization.weight[i]);
+    all += static_cast<double>(patches.weight[i]);
+  }
+  return all > 0.0 ? visible / all : 0.0;
+}
+
+NormalEquations accumulate(const PatchSet& patches, const Linearization& linearization,
+                           double student_t_dof, double sigma) {
+  NormalSums sums;
+  HWY_DYNAMIC_DISPATCH(normal_equation_sums)
+  (patches, linearization, static_cast<float>(student_t_dof),
+   static_cast<float>(1.0 / (sigma * sigma)), sums);
+  NormalEquations result;
+  std::size_t next = 0;
+  for (int row = 0; row < NormalEquations::kSize; ++row) {
+    for (int column = row; column < NormalEquations::kSize; ++column) {
+      result.H(row, column) = result.H(column, row) = total(sums[next++]);
+    }
+  }
+  for (int row = 0; row < NormalEquations::kSize; ++row) result.b(row) = total(sums[next++]);
+  return result;
+}
+
+}  // namespace sparsight
+#endif
