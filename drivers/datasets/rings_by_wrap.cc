@@ -90,6 +90,15 @@ struct Segmentation {
   float laser_step = 0.0F;
 };
 
+// How far the elevation leaps to return i, beyond the slope on the smoother side of it: the rows of
+// a depth image are level nowhere but in the middle.
+float elevation_leap(const std::vector<float>& elevation, std::size_t i) {
+  const float leap = elevation[i] - elevation[i - 1];
+  const float before = i >= 2 ? elevation[i - 1] - elevation[i - 2] : 0.0F;
+  const float after = i + 1 < elevation.size() ? elevation[i + 1] - elevation[i] : 0.0F;
+  return std::min(std::abs(leap - before), std::abs(leap - after));
+}
+
 Segmentation segment(const ScanAngles& angles, const Dial& dial) {
   Segmentation result;
   result.ring.reserve(angles.azimuth.size());
@@ -103,7 +112,7 @@ Segmentation segment(const ScanAngles& angles, const Dial& dial) {
       ++wraps;
       ring = std::min<int>(ring + 1, std::numeric_limits<std::uint16_t>::max());
       if (std::abs(shortest_step(angles.azimuth[i - 1], angles.azimuth[i])) < kNeighbourDegrees) {
-        laser_steps.push_back(std::abs(angles.elevation[i] - angles.elevation[i - 1]));
+        laser_steps.push_back(elevation_leap(angles.elevation, i));
       }
     } else if (position - last > dial.extent() - kSeamJitterDegrees && ring > 0) {
       --ring;
