@@ -1,0 +1,49 @@
+#include "tools/session/ground_truth.h"
+
+namespace sparsight {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kShortPath_m = 200.0;
+
+Trajectory estimate_of(const std::vector<TrajectoryPose>& trajectory, bool with_times) {
+  Trajectory estimate{.source = "trajectory"};
+  for (const TrajectoryPose& pose : trajectory) {
+    estimate.poses.push_back(pose.T_world_camera);
+    if (with_times) estimate.times.push_back(pose.exposure);
+  }
+  return estimate;
+}
+
+}  // namespace
+
+std::optional<fs::path> find_ground_truth(const fs::path& source, int camera) {
+  if (camera != 0) return std::nullopt;
+  std::error_code error;
+  const fs::path folder = fs::canonical(source, error);
+  if (error) return std::nullopt;
+  const fs::path odometry =
+      folder.parent_path().parent_path() / "poses" / (folder.filename().string() + ".txt");
+  const fs::path inside = folder / "poses_camera_0.txt";
+  if (fs::is_regular_file(inside, error)) return inside;
+  if (fs::is_regular_file(odometry, error)) return odometry;
+  return std::nullopt;
+}
+
+Result<GroundTruth> compare_with_ground_truth(const std::vector<TrajectoryPose>& trajectory,
+                                              const fs::path& file) {
+  auto truth = read_trajectory(file);
+  if (!truth) return tl::unexpected(truth.error());
+  const Trajectory estimate = estimate_of(trajectory, !truth->times.empty());
+  EvaluationOptions options;
+  auto evaluation = evaluate_trajectories(estimate, *truth, options);
+  if (evaluation && evaluation->path_length_m <= kShortPath_m) {
+    options.segments.lengths_m = {10, 20, 30, 40, 50};
+    evaluation = evaluate_trajectories(estimate, *truth, options);
+  }
+  if (!evaluation) return tl::unexpected(evaluation.error());
+  return GroundTruth{file, *std::move(truth), *std::move(evaluation)};
+}
+
+}  // namespace sparsight

@@ -1,0 +1,121 @@
+#include "tools/session/replay_session.h"
+
+#include <fmt/format.h>
+
+#include "drivers/datasets/open_dataset.h"
+#include "tools/session/ground_truth.h"
+#include "tools/session/interrupt.h"
+#include "tools/session/progress.h"
+#include "tools/session/session_folder.h"
+#include "tools/session/session_recorder.h"
+#include "tools/session/session_summary.h"
+
+namespace sparsight {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Ends where the person watching asks for it, as if the recording ended there.
+class InterruptibleSource : public FrameSource {
+ public:
+  InterruptibleSource(FrameSource& source, const InterruptRequest& request)
+      : source_(source), request_(request) {}
+
+  const RigCalibration& calibration() const override { return source_.calibration(); }
+  std::optional<std::size_t> frame_count() const override { return source_.frame_count(); }
+  std::optional<SynchronizedFrame> next() override {
+    return request_.pending() ? std::nullopt : source_.next();
+  }
+
+ private:
+  FrameSource& source_;
+  const InterruptRequest& request_;
+};
+
+// Without --camera the source takes the lowest camera; both KITTI layouts call camera 0 so.
+int camera_of(const ReplayOptions& options) {
+  if (options.camera) return *options.camera;
+  for (int camera = 0; camera < 4; ++camera) {
+    if (std::filesystem::exists(options.source / fmt::format("image_{}", camera)) ||
+        std::filesystem::exists(options.source / fmt::format("image_{:02}", camera))) {
+      return camera;
+    }
+  }
+  return 0;
+}
+
+SessionDescription describe(const ReplayOptions& options, const RigCalibration& calibration) {
+  return {.source = options.source,
+          .profile_name = options.profile_name,
+          .config = options.config,
+          .rays = options.rays,
+          .camera = camera_of(options),
+          .calibration = calibration};
+}
+
+std::optional<std::size_t> frames_to_come(const FrameSource& source, const ReplayOptions& options) {
+  const auto count = source.frame_count();
+  if (!options.max_frames) return count;
+  return count ? std::min(*count, *options.max_frames) : *options.max_frames;
+}
+
+// Runs to the end of the source, or until it breaks off: then what has been gathered stands.
+void run(FrameSource& source, const ReplayOptions& options, SessionRecorder& recorder) {
+  Progress progress(stderr, Progress::style_for(stderr, options.quiet),
+                    frames_to_come(source, options));
+  const auto on_frame = [&](const FrameRecord& record) {
+    if (recorder.add(record)) {
+      progress.say(fmt::format("frame {}: {}", record.sequence, record.faults.front().message));
+    }
+    progress.frame(record.exposure, name_of(record.outcome.status));
+  };
+  const auto on_keyframe = [&](RetiredKeyframe&& keyframe) { recorder.add(keyframe); };
+
+  const InterruptRequest interrupt;
+  InterruptibleSource interruptible(source, interrupt);
+  const auto start = Clock::now();
+  std::vector<TrajectoryPose> trajectory;
+  bool complete = false;
+  try {
+    Odometry odometry(source.calibration(), options.config);
+    trajectory = replay_deterministic(interruptible, odometry, options.max_frames,
+                                      {.on_frame = on_frame, .on_keyframe = on_keyframe});
+    complete = !interrupt.pending();
+  } catch (const std::exception& error) {
+    recorder.session().notes.push_back(fmt::format("the replay broke off: {}", error.what()));
+  }
+  progress.end();
+  recorder.end(std::move(trajectory), Clock::now() - start, complete);
+}
+
+void compare(const ReplayOptions& options, Session& session) {
+  const auto file = options.ground_truth
+                        ? options.ground_truth
+                        : find_ground_truth(options.source, session.description.camera);
+  if (!file) return;
+  auto truth = compare_with_ground_truth(session.trajectory, *file);
+  if (truth) {
+    session.truth = *std::move(truth);
+  } else {
+    session.notes.push_back(
+        fmt::format("not compared with ground truth: {}", truth.error().message));
+  }
+}
+
+}  // namespace
+
+Result<ReplayResult> replay_session(const ReplayOptions& options) {
+  auto source = open_dataset(options.source, {.rays = options.rays, .camera = options.camera});
+  if (!source) return tl::unexpected(source.error());
+  auto folder = claim_session_folder(options.output, options.source, options.rays);
+  if (!folder) return tl::unexpected(folder.error());
+
+  SessionRecorder recorder(*folder, describe(options, (*source)->calibration()));
+  if (auto begun = recorder.begin(); !begun) return tl::unexpected(begun.error());
+  run(**source, options, recorder);
+  compare(options, recorder.session());
+  if (auto written = recorder.write(); !written) return tl::unexpected(written.error());
+  return ReplayResult{*folder, std::move(recorder.session())};
+}
+
+}  // namespace sparsight

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/calibration.h"
+#include "realtime/pipeline/deterministic_replay.h"
+#include "tools/evaluation/evaluation.h"
+#include "tools/session/fault_log.h"
+#include "tools/session/frame_figures.h"
+
+namespace sparsight {
+
+// Known before the first frame.
+struct SessionDescription {
+  std::filesystem::path source;
+  std::string profile_name;
+  OdometryConfig config;
+  std::optional<int> rays;  // none: all the scans have
+  int camera = 0;
+  RigCalibration calibration;
+};
+
+// The true path and what the comparison says.
+struct GroundTruth {
+  std::filesystem::path file;
+  Trajectory trajectory;
+  Evaluation evaluation;
+};
+
+// Everything a session leaves behind but the map.
+struct Session {
+  SessionDescription description;
+  std::vector<FrameFigures> frames;
+  std::vector<TrajectoryPose> trajectory;
+  std::vector<std::uint64_t> keyframes;  // their frames' sequence numbers
+  FaultLog faults;
+  std::size_t map_points = 0;
+  std::chrono::nanoseconds wall_time{};  // reading included
+  bool complete = false;                 // the source was read to its end (or to --max-frames)
+  std::optional<GroundTruth> truth;
+  std::vector<std::string> notes;  // what a person must know before trusting the figures
+};
+
+}  // namespace sparsight

@@ -1,0 +1,89 @@
+#include <nlohmann/json.hpp>
+
+#include "tools/session/session_summary.h"
+
+namespace sparsight {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const RigCalibration& calibration) {
+  const CameraIntrinsics& camera = calibration.camera;
+  Json T_camera_lidar = Json::array();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      T_camera_lidar.push_back(calibration.T_camera_lidar(row, column));
+    }
+  }
+  return {{"width", camera.width},
+          {"height", camera.height},
+          {"fx", camera.fx},
+          {"fy", camera.fy},
+          {"cx", camera.cx},
+          {"cy", camera.cy},
+          {"distortion_k1_k2_p1_p2_k3", {camera.k1, camera.k2, camera.p1, camera.p2, camera.k3}},
+          {"T_camera_lidar_3x4_row_major", T_camera_lidar}};
+}
+
+Json json_of(const StageTiming& timing) {
+  return {{"calls", timing.calls},
+          {"median", timing.median_ms},
+          {"p99", timing.p99_ms},
+          {"max", timing.max_ms}};
+}
+
+template <typename Figure>
+Json json_of(const std::optional<Figure>& figure) {
+  return figure ? Json(*figure) : Json(nullptr);
+}
+
+Json json_of(const GroundTruth& truth) {
+  const Evaluation& evaluation = truth.evaluation;
+  Json accuracy = {{"ground_truth", truth.file.string()},
+                   {"frames", evaluation.frames},
+                   {"path_length_m", evaluation.path_length_m},
+                   {"t_rel_percent", json_of(evaluation.kitti.t_rel_percent)},
+                   {"r_rel_deg_per_m", json_of(evaluation.kitti.r_rel_deg_per_m)},
+                   {"ate_rmse_m", evaluation.ate.rmse_m},
+                   {"ate_max_m", evaluation.ate.max_m},
+                   {"notes", evaluation.notes}};
+  for (const SegmentMean& mean : evaluation.kitti.per_length) {
+    accuracy["per_length"].push_back({{"length_m", mean.key},
+                                      {"segments", mean.segments},
+                                      {"t_rel_percent", mean.t_rel_percent},
+                                      {"r_rel_deg_per_m", mean.r_rel_deg_per_m}});
+  }
+  return accuracy;
+}
+
+}  // namespace
+
+std::string session_json(const Session& session, const SessionSummary& summary) {
+  const SessionDescription& description = session.description;
+  Json json = {{"sparsight", SPARSIGHT_VERSION},
+               {"complete", session.complete},
+               {"source", description.source.string()},
+               {"profile", description.profile_name},
+               {"rays", json_of(description.rays)},
+               {"camera", description.camera},
+               {"calibration", json_of(description.calibration)},
+               {"frames", summary.frames},
+               {"tracked", summary.tracked},
+               {"predicted", summary.predicted},
+               {"keyframes", summary.keyframes},
+               {"map_points", session.map_points},
+               {"recorded_s", summary.recorded_s},
+               {"path_length_m", summary.path_length_m},
+               {"faults", session.faults.count_by_kind()},
+               {"tracking_ms", json_of(summary.tracking)},
+               {"window_ms", json_of(summary.window)},
+               {"wall_s", to_seconds(session.wall_time)},
+               {"frames_per_s", summary.frames_per_s},
+               {"times_real_time", summary.realtime_factor},
+               {"accuracy", session.truth ? json_of(*session.truth) : Json(nullptr)},
+               {"notes", session.notes}};
+  // A path need not be UTF-8; an unreadable character must not cost the session.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace sparsight

@@ -1,0 +1,83 @@
+#include "tools/session/session_recorder.h"
+
+#include <utility>
+
+#include "tools/configuration/profile.h"
+#include "tools/session/session_summary.h"
+
+namespace sparsight {
+namespace {
+
+std::string kitti_text(const std::vector<TrajectoryPose>& trajectory) {
+  std::vector<Eigen::Isometry3d> poses;
+  for (const TrajectoryPose& pose : trajectory) poses.push_back(pose.T_world_camera);
+  return format_kitti(poses);
+}
+
+Trajectory with_its_times(const std::vector<TrajectoryPose>& trajectory) {
+  Trajectory result{.source = "trajectory.tum"};
+  for (const TrajectoryPose& pose : trajectory) {
+    result.poses.push_back(pose.T_world_camera);
+    result.times.push_back(pose.exposure);
+  }
+  return result;
+}
+
+std::vector<TrajectoryPose> poses_as_tracked(const std::vector<FrameFigures>& frames) {
+  std::vector<TrajectoryPose> trajectory;
+  for (const FrameFigures& frame : frames) {
+    trajectory.push_back({frame.sequence, frame.exposure, frame.T_world_camera});
+  }
+  return trajectory;
+}
+
+}  // namespace
+
+SessionRecorder::SessionRecorder(std::filesystem::path folder, SessionDescription description)
+    : folder_(std::move(folder)), journal_(folder_ / "frames.csv") {
+  session_.description = std::move(description);
+  journal_.stream() << frames_csv_header();
+}
+
+Result<void> SessionRecorder::begin() {
+  if (std::filesystem::exists(folder_ / "session.json")) return {};
+  return write_file(folder_ / "session.json", session_json(session_, {}));
+}
+
+bool SessionRecorder::add(const FrameRecord& record) {
+  session_.frames.push_back(figures_of(record));
+  journal_.stream() << frames_csv_line(session_.frames.back());
+  journal_.flush();
+  bool news = false;
+  for (const Error& fault : record.faults) news |= session_.faults.add(record.sequence, fault);
+  return news;
+}
+
+void SessionRecorder::add(const RetiredKeyframe& keyframe) {
+  session_.keyframes.push_back(keyframe.sequence);
+}
+
+void SessionRecorder::end(std::vector<TrajectoryPose> trajectory,
+                          std::chrono::nanoseconds wall_time, bool complete) {
+  session_.trajectory =
+      trajectory.empty() ? poses_as_tracked(session_.frames) : std::move(trajectory);
+  session_.wall_time = wall_time;
+  session_.complete = complete;
+}
+
+Result<void> SessionRecorder::write() {
+  const SessionSummary summary = summarize(session_);
+  return write_file(folder_ / "trajectory.kitti", kitti_text(session_.trajectory))
+      .and_then([&] {
+        return write_file(folder_ / "trajectory.tum",
+                          format_tum(with_its_times(session_.trajectory)));
+      })
+      .and_then([&] {
+        return write_file(folder_ / "profile.toml", describe_profile(session_.description.config));
+      })
+      .and_then([&] { return journal_.commit(); })
+      .and_then(
+          [&] { return write_file(folder_ / "session.json", session_json(session_, summary)); });
+}
+
+}  // namespace sparsight

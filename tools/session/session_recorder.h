@@ -1,0 +1,38 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "tools/session/atomic_file.h"
+#include "tools/session/session.h"
+
+namespace sparsight {
+
+// Gathers a session as it runs and writes its folder. The journal grows as frames come; all else is
+// written at the end, each file appearing when it is whole and session.json last. Thread-bound.
+class SessionRecorder {
+ public:
+  SessionRecorder(std::filesystem::path folder, SessionDescription description);
+
+  // Marks a new folder as a session's, so that after a crash it may be replaced.
+  Result<void> begin();
+  // True if the frame shows a fault of a kind not seen before.
+  bool add(const FrameRecord& record);
+  void add(const RetiredKeyframe& keyframe);
+  // An empty trajectory (a run that broke off) stands for the poses as they were when tracked.
+  void end(std::vector<TrajectoryPose> trajectory, std::chrono::nanoseconds wall_time,
+           bool complete);
+  Result<void> write();
+
+  Session& session() { return session_; }
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+  Session session_;
+  AtomicFile journal_;
+};
+
+}  // namespace sparsight

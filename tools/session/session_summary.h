@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "tools/session/session.h"
+
+namespace sparsight {
+
+struct StageTiming {
+  std::size_t calls = 0;
+  double median_ms = 0.0;
+  double p99_ms = 0.0;
+  double max_ms = 0.0;
+};
+
+struct SessionSummary {
+  std::size_t frames = 0;
+  std::size_t tracked = 0;    // the first, which defines the world, among them
+  std::size_t predicted = 0;  // frames = tracked + predicted
+  std::size_t keyframes = 0;
+  double recorded_s = 0.0;  // from the first exposure to the last
+  double path_length_m = 0.0;
+  double frames_per_s = 0.0;
+  double realtime_factor = 0.0;  // recorded time over wall time
+  StageTiming tracking;
+  StageTiming window;
+};
+
+SessionSummary summarize(const Session& session);
+
+// The smallest value that at least `share` of them do not exceed; 0 of none.
+double percentile(std::vector<double> values, double share);
+
+// session.json.
+std::string session_json(const Session& session, const SessionSummary& summary);
+
+}  // namespace sparsight
