@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/tools/evaluation/paths.h"
-#include "tools/evaluation/text_file.h"
+#include "tools/session/atomic_file.h"
 
 namespace sparsight {
 namespace {
@@ -27,7 +27,7 @@ class EvaluationFilesTest : public ::testing::Test {
     write("times.txt", "0\n0.1\n0.2\n0.3\n");
   }
   void write(const std::string& name, const std::string& text) {
-    ASSERT_TRUE(write_text_file(folder_ / name, text));
+    ASSERT_TRUE(write_file(folder_ / name, text));
   }
 
   const std::filesystem::path folder_ =

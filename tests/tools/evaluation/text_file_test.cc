@@ -3,35 +3,30 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tools/session/atomic_file.h"
+
 namespace sparsight {
 namespace {
 
 using ::testing::HasSubstr;
 
-std::filesystem::path fresh_folder(const char* name) {
-  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / name;
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
+TEST(TextFile, ReadsEveryByte) {
+  const auto file = std::filesystem::path(::testing::TempDir()) / "text_file_every_byte";
+  const std::string text("two\r\nlines\0and a zero", 22);
+  ASSERT_TRUE(write_file(file, text));
+  EXPECT_EQ(read_text_file(file).value(), text);
+  ASSERT_TRUE(write_file(file, ""));
+  EXPECT_EQ(read_text_file(file).value(), "");
 }
 
-TEST(TextFile, ReadsBackWhatWasWritten) {
-  const auto folder = fresh_folder("text_file_round_trip");
-  const std::string text("two\nlines\0and a zero", 20);
-  ASSERT_TRUE(write_text_file(folder / "a", text));
-  EXPECT_EQ(read_text_file(folder / "a").value(), text);
-  ASSERT_TRUE(write_text_file(folder / "a", ""));
-  EXPECT_EQ(read_text_file(folder / "a").value(), "");
-}
-
-TEST(TextFile, LeavesNothingHalfWhenItCannotBeWritten) {
-  const auto folder = fresh_folder("text_file_refused");
-  std::filesystem::create_directories(folder / "a/in the way");
-  const auto written = write_text_file(folder / "a", "text");
-  ASSERT_FALSE(written);
-  EXPECT_THAT(written.error().message, HasSubstr("cannot be written"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "a.partial"));
-  EXPECT_FALSE(write_text_file(folder / "no such folder/a", "text"));
+TEST(TextFile, SaysWhatIsWrongWithWhatItCannotRead) {
+  const auto missing = read_text_file("/nowhere/a.txt");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(missing.error().message, "/nowhere/a.txt: no such file");
+  const auto folder = read_text_file(::testing::TempDir());
+  ASSERT_FALSE(folder);
+  EXPECT_THAT(folder.error().message, HasSubstr("is a folder"));
 }
 
 }  // namespace

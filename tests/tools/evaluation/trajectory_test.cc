@@ -106,16 +106,6 @@ TEST(Trajectory, RefusesAFileWithoutPoses) {
   EXPECT_EQ(error_of(""), "drive.txt: holds no pose");
 }
 
-TEST(Trajectory, SaysWhatIsWrongWithAPathItCannotRead) {
-  const auto missing = read_trajectory("/nowhere/a.txt");
-  ASSERT_FALSE(missing);
-  EXPECT_EQ(missing.error().code, ErrorCode::kNotFound);
-  EXPECT_EQ(missing.error().message, "/nowhere/a.txt: no such file");
-  const auto folder = read_trajectory("/");
-  ASSERT_FALSE(folder);
-  EXPECT_THAT(folder.error().message, HasSubstr("is a folder"));
-}
-
 TEST(Trajectory, GivesKittiPosesTheTimesOfTheirFrames) {
   const auto times = parse_times("0.000000e+00\n1.037533e-01\n2.0e-1\n", "times.txt");
   ASSERT_TRUE(times) << times.error().message;

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/evaluation/paths.h"
-#include "tools/evaluation/text_file.h"
+#include "tools/session/atomic_file.h"
 #include "tools/sparsight/subcommands.h"
 
 namespace sparsight {
@@ -41,7 +41,7 @@ class EvaluateCommand : public ::testing::Test {
   std::string write(const std::string& name, const std::string& text) {
     const auto file = folder_ / name;
     std::filesystem::create_directories(folder_);
-    EXPECT_TRUE(write_text_file(file, text));
+    EXPECT_TRUE(write_file(file, text));
     return file.string();
   }
   const std::filesystem::path folder_ =
