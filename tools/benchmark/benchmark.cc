@@ -98,6 +98,12 @@ class BenchmarkRunner {
       entry.message = outcome.message;
       return;
     }
+    if (!session_is_complete(entry.run)) {
+      entry.status = Status::kFailed;
+      entry.message =
+          fmt::format("{}: the session ended before its source did", entry.run.session.string());
+      return;
+    }
     take_figures(entry);
     if (entry.status != Status::kDone) return;
     if (auto stamped = finish_run(entry.run, settings(entry)); !stamped) {

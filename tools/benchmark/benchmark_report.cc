@@ -15,7 +15,7 @@ using Row = std::vector<std::string>;
 using Cell = std::string (*)(const BenchmarkEntry&);
 
 constexpr const char* kNone = "–";
-constexpr const char* kShortMark = "*";    // segments of 10-50 m
+constexpr const char* kShortMark = "‡";    // segments of 10-50 m
 constexpr const char* kPartialMark = "†";  // not the whole sequence
 
 const RunAccuracy* accuracy_of(const BenchmarkEntry& entry) {

@@ -26,12 +26,16 @@ std::string run_settings(const ReplayRun& run, const std::string& program,
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-bool is_finished(const ReplayRun& run, const std::string& settings) {
-  const auto stamp = read_text_file(run.stamp());
+bool session_is_complete(const ReplayRun& run) {
   const auto session = read_text_file(run.session / "session.json");
-  if (!stamp || *stamp != settings || !session) return false;
+  if (!session) return false;
   const auto json = nlohmann::json::parse(*session, nullptr, false);
   return json.is_object() && json.contains("complete") && json["complete"] == true;
+}
+
+bool is_finished(const ReplayRun& run, const std::string& settings) {
+  const auto stamp = read_text_file(run.stamp());
+  return stamp && *stamp == settings && session_is_complete(run);
 }
 
 Result<void> begin_run(const ReplayRun& run) {

@@ -45,6 +45,9 @@ using ReplayRunner = std::function<ReplayOutcome(const ReplayRun&, const ReplayW
 std::string run_settings(const ReplayRun& run, const std::string& program,
                          const std::string& profile);
 
+// Whether the session read its source to the end (session.json says so).
+bool session_is_complete(const ReplayRun& run);
+
 // A run is finished if its session says it is complete and the stamp beside it, which is written
 // last, has these settings.
 bool is_finished(const ReplayRun& run, const std::string& settings);
