@@ -11,9 +11,9 @@ FrameFigures figures_of(const FrameRecord& record) {
           .status = outcome.status,
           .keyframe = outcome.becomes_keyframe,
           .points_used = outcome.tracking.points_used,
-          .attempts = outcome.attempts,
+          .attempts = outcome.tracking.attempts,
           .sigma_grey = outcome.tracking.residual_sigma_grey,
-          .visible_ratio = outcome.visible_ratio,
+          .visible_ratio = outcome.tracking.visible_ratio,
           .tracking_time = record.tracking_time,
           .window_time = record.window_time,
           .T_world_camera = outcome.T_world_camera};

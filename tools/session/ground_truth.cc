@@ -1,5 +1,7 @@
 #include "tools/session/ground_truth.h"
 
+#include "tools/evaluation/association.h"
+
 namespace sparsight {
 namespace {
 
@@ -14,6 +16,17 @@ Trajectory estimate_of(const std::vector<TrajectoryPose>& trajectory, bool with_
     if (with_times) estimate.times.push_back(pose.exposure);
   }
   return estimate;
+}
+
+std::vector<Eigen::Vector3d> positions_in_world(const Trajectory& estimate, const Trajectory& truth,
+                                                const std::vector<IndexPair>& pairs) {
+  std::vector<Eigen::Vector3d> positions;
+  const Eigen::Isometry3d T_world_truth =
+      estimate.poses[pairs.front().estimate] * truth.poses[pairs.front().truth].inverse();
+  for (const IndexPair& pair : pairs) {
+    positions.emplace_back(T_world_truth * truth.poses[pair.truth].translation());
+  }
+  return positions;
 }
 
 }  // namespace
@@ -43,7 +56,9 @@ Result<GroundTruth> compare_with_ground_truth(const std::vector<TrajectoryPose>&
     evaluation = evaluate_trajectories(estimate, *truth, options);
   }
   if (!evaluation) return tl::unexpected(evaluation.error());
-  return GroundTruth{file, *std::move(truth), *std::move(evaluation)};
+  const auto pairs = associate(estimate, *truth, options.max_time_difference);
+  if (!pairs) return tl::unexpected(pairs.error());
+  return GroundTruth{file, *std::move(evaluation), positions_in_world(estimate, *truth, *pairs)};
 }
 
 }  // namespace sparsight

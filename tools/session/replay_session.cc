@@ -110,7 +110,7 @@ Result<ReplayResult> replay_session(const ReplayOptions& options) {
   auto folder = claim_session_folder(options.output, options.source, options.rays);
   if (!folder) return tl::unexpected(folder.error());
 
-  SessionRecorder recorder(*folder, describe(options, (*source)->calibration()));
+  SessionRecorder recorder(*folder, describe(options, (*source)->calibration()), options.map);
   if (auto begun = recorder.begin(); !begun) return tl::unexpected(begun.error());
   run(**source, options, recorder);
   compare(options, recorder.session());

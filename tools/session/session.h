@@ -28,8 +28,10 @@ struct SessionDescription {
 // The true path and what the comparison says.
 struct GroundTruth {
   std::filesystem::path file;
-  Trajectory trajectory;
   Evaluation evaluation;
+  // Where the evaluated frames (evaluation.estimate_indices) were in truth, in the session's world:
+  // the first of them stands where the estimate has it.
+  std::vector<Eigen::Vector3d> positions;
 };
 
 // Everything a session leaves behind but the map.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "slam/map/voxel_map.h"
 #include "tools/session/atomic_file.h"
 #include "tools/session/session.h"
 
@@ -14,7 +15,8 @@ namespace sparsight {
 // written at the end, each file appearing when it is whole and session.json last. Thread-bound.
 class SessionRecorder {
  public:
-  SessionRecorder(std::filesystem::path folder, SessionDescription description);
+  // Without `map` none is kept or written.
+  SessionRecorder(std::filesystem::path folder, SessionDescription description, bool map);
 
   // Marks a new folder as a session's, so that after a crash it may be replaced.
   Result<void> begin();
@@ -30,8 +32,11 @@ class SessionRecorder {
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
+  Result<void> write_map();
+
   std::filesystem::path folder_;
   Session session_;
+  std::optional<VoxelMap> map_;
   AtomicFile journal_;
 };
 
