@@ -29,7 +29,7 @@ struct Keyframe {
 
   ImagePyramid pyramid;
   std::vector<SelectedPoint> points;
-  std::vector<PatchSet> patches;   // per pyramid level
+  std::vector<PatchSet> patches;    // per pyramid level
   double mean_inverse_depth = 0.0;  // 1/m, of the points
   std::vector<CloudPoint> cloud_camera;
 };

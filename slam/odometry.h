@@ -21,6 +21,7 @@ struct KeyframeConfig {
 
 struct OdometryConfig {
   PointSelectionConfig points;
+  PhotometryConfig photometry;
   TrackerConfig tracker;
   KeyframeConfig keyframes;
   WindowConfig window;
@@ -49,7 +50,7 @@ struct FrameOutcome {
     kPredicted,  // not measured: no image, or tracking failed from every start
   };
   Status status = Status::kPredicted;
-  TrackingResult tracking;              // of the best attempt; its pose is the predicted one if none
+  TrackingResult tracking;  // of the best attempt; its pose is the predicted one if none
   std::uint64_t keyframe_sequence = 0;  // the keyframe T_keyframe_camera refers to
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();  // as known at that moment
   bool becomes_keyframe = false;

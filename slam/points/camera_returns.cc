@@ -29,7 +29,8 @@ class MotionTable {
   Eigen::Vector3f in_camera(const LidarReturn& r) const {
     std::size_t slot = 0;
     if (table_.size() > 1) {
-      slot = static_cast<std::size_t>((static_cast<double>(r.from_exposure_ns) - first_ns_) / slot_ns_);
+      slot = static_cast<std::size_t>((static_cast<double>(r.from_exposure_ns) - first_ns_) /
+                                      slot_ns_);
       slot = std::min(slot, table_.size() - 1);
     }
     return table_[slot].leftCols<3>() * r.p_lidar + table_[slot].col(3);
@@ -55,10 +56,8 @@ std::vector<CameraReturn> returns_in_image(const Sweep& sweep, const CameraModel
     const Eigen::Vector3f p = motion.in_camera(r);
     Eigen::Vector2d pixel;
     if (!camera.project(p.cast<double>(), pixel) || !camera.contains(pixel, 0.0)) continue;
-    result.push_back({.p_camera = p,
-                      .pixel = pixel.cast<float>(),
-                      .intensity = r.intensity,
-                      .ring = r.ring});
+    result.push_back(
+        {.p_camera = p, .pixel = pixel.cast<float>(), .intensity = r.intensity, .ring = r.ring});
   }
   return result;
 }

@@ -19,9 +19,9 @@ struct CameraReturn {
   std::uint16_t ring = 0;
 };
 
-// Sec. IV-B1: the returns in the camera frame. Of a sweep that is not motion-compensated each return
-// is moved from its firing to the exposure with the camera's velocity `twist` ([rad/s, m/s], camera
-// frame). Returns outside the image are dropped; the order is kept.
+// Sec. IV-B1: the returns in the camera frame. Of a sweep that is not motion-compensated each
+// return is moved from its firing to the exposure with the camera's velocity `twist` ([rad/s, m/s],
+// camera frame). Returns outside the image are dropped; the order is kept.
 std::vector<CameraReturn> returns_in_image(const Sweep& sweep, const CameraModel& camera,
                                            const Eigen::Isometry3d& T_camera_lidar,
                                            const Vector6d& twist);

@@ -28,7 +28,8 @@ int gradient2_at(const GreyImage& image, const Eigen::Vector2f& pixel) {
 class SphereBins {
  public:
   explicit SphereBins(double bin_deg)
-      : bin_rad_(bin_deg * M_PI / 180.0), across_(static_cast<int>(std::ceil(M_PI / bin_rad_)) + 1) {}
+      : bin_rad_(bin_deg * M_PI / 180.0),
+        across_(static_cast<int>(std::ceil(M_PI / bin_rad_)) + 1) {}
 
   std::size_t of(const Eigen::Vector3f& p) const {
     const double azimuth = std::atan2(p.x(), p.z()) + M_PI_2;

@@ -30,7 +30,8 @@ bool jump_between(const CameraReturn& a, const CameraReturn& b) {
 std::vector<bool> on_depth_edge(const std::vector<CameraReturn>& returns) {
   std::vector<bool> edge(returns.size(), false);
   for (std::size_t i = 0; i + 1 < returns.size(); ++i) {
-    if (returns[i].ring != returns[i + 1].ring || !jump_between(returns[i], returns[i + 1])) continue;
+    if (returns[i].ring != returns[i + 1].ring || !jump_between(returns[i], returns[i + 1]))
+      continue;
     edge[i] = edge[i + 1] = true;
   }
   return edge;

@@ -30,7 +30,7 @@ void append(PatchSet& set, const Entry& entry) {
 // The pattern pixel's own point: on its ray, at the depth of the surface there.
 Entry entry_at(const GreyImage& image, const CameraModel& camera, const SelectedPoint& point,
                const Eigen::Vector2d& pixel, const Eigen::Vector2d& offset_fine,
-               const PatchConfig& config) {
+               double gradient_weight_constant) {
   Entry entry;
   const float inverse_depth =
       1.0F / point.p_camera.z() + point.inverse_depth_slope.dot(offset_fine.cast<float>());
@@ -40,14 +40,14 @@ Entry entry_at(const GreyImage& image, const CameraModel& camera, const Selected
   const ImageSample s = sample(image, u, v);
   entry.p_camera = camera.unproject(pixel).cast<float>() / inverse_depth;
   entry.intensity = s.value;
-  entry.weight = gradient_weight(s, config.gradient_weight_constant);
+  entry.weight = gradient_weight(s, gradient_weight_constant);
   return entry;
 }
 
 }  // namespace
 
 PatchSet make_patches(const ImagePyramid& pyramid, int level, const CameraModel& camera,
-                      const std::vector<SelectedPoint>& points, const PatchConfig& config) {
+                      const std::vector<SelectedPoint>& points, double gradient_weight_constant) {
   const CameraModel level_camera = camera.at_level(level);
   const double fine_pixels_per_pixel = std::exp2(level);
   PatchSet set;
@@ -58,7 +58,7 @@ PatchSet make_patches(const ImagePyramid& pyramid, int level, const CameraModel&
     for (const PatternOffset& pattern : kPattern) {
       const Eigen::Vector2d offset(pattern.u, pattern.v);
       append(set, projects ? entry_at(pyramid.level(level), level_camera, point, centre + offset,
-                                      fine_pixels_per_pixel * offset, config)
+                                      fine_pixels_per_pixel * offset, gradient_weight_constant)
                            : Entry{});
     }
   }

@@ -34,15 +34,9 @@ struct PatchSet {
   std::size_t entries() const { return x.size(); }
 };
 
-struct PatchConfig {
-  // Down-weights strong gradients, where an error of depth or of projection costs most:
-  // c^2 / (c^2 + |grad I|^2) with c in grey levels per pixel (DSO, Sec. 2.2). 0 switches it off.
-  double gradient_weight_constant = 0.0;
-};
-
 // Pattern pixels outside the image at this level get no weight. `camera` is that of the finest
 // level.
 PatchSet make_patches(const ImagePyramid& pyramid, int level, const CameraModel& camera,
-                      const std::vector<SelectedPoint>& points, const PatchConfig& config);
+                      const std::vector<SelectedPoint>& points, double gradient_weight_constant);
 
 }  // namespace sparsight

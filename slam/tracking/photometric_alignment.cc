@@ -58,8 +58,12 @@ Matrix6d marginal_information(const NormalEquations& n, bool affine_brightness, 
 class LevelAlignment {
  public:
   LevelAlignment(const PatchSet& patches, const GreyImage& image, const CameraModel& camera,
-                 const AlignmentConfig& config, AlignmentWorkspace& workspace)
-      : patches_(patches), image_(image), camera_(camera), config_(config), space_(workspace) {}
+                 const PhotometryConfig& photometry, AlignmentWorkspace& workspace)
+      : patches_(patches),
+        image_(image),
+        camera_(camera),
+        photometry_(photometry),
+        space_(workspace) {}
 
   // Linearises at the pose and estimates sigma there.
   Alignment assess(const Alignment& at) {
@@ -67,17 +71,15 @@ class LevelAlignment {
     return measured(at);
   }
 
-  NormalEquations normal_equations(const Alignment& at) const {
-    NormalEquations n = accumulate(patches_, space_.current, config_.student_t_dof, at.sigma_grey);
-    if (config_.affine_brightness) add_brightness_prior(n, at);
-    return n;
+  NormalEquations equations(const Alignment& at) const {
+    return normal_equations(patches_, space_.current, at, photometry_);
   }
 
   // Takes the step if it lowers the cost for the sigma it was computed with.
   bool try_step(Alignment& at, const Vector8d& step) {
     const Alignment to = stepped(at, step);
     evaluate(to, space_.candidate);
-    const double cost = robust_cost(space_.candidate, config_.student_t_dof, at.sigma_grey);
+    const double cost = robust_cost(space_.candidate, photometry_.student_t_dof, at.sigma_grey);
     if (!(cost < at.cost) || visible_share(patches_, space_.candidate) < kLeastVisibleShare) {
       return false;
     }
@@ -93,8 +95,8 @@ class LevelAlignment {
 
   // The scale is estimated in each iteration, after eq. (5).
   Alignment measured(Alignment at) const {
-    at.sigma_grey = estimate_sigma(space_.current, config_.student_t_dof, at.sigma_grey);
-    at.cost = robust_cost(space_.current, config_.student_t_dof, at.sigma_grey);
+    at.sigma_grey = estimate_sigma(space_.current, photometry_.student_t_dof, at.sigma_grey);
+    at.cost = robust_cost(space_.current, photometry_.student_t_dof, at.sigma_grey);
     at.visible_share = visible_share(patches_, space_.current);
     return at;
   }
@@ -102,7 +104,7 @@ class LevelAlignment {
   const PatchSet& patches_;
   const GreyImage& image_;
   const CameraModel& camera_;
-  const AlignmentConfig& config_;
+  const PhotometryConfig& photometry_;
   AlignmentWorkspace& space_;
 };
 
@@ -116,32 +118,39 @@ double step_px(const Vector8d& step, const CameraModel& camera, double mean_inve
 
 Alignment align(const PatchSet& patches, const GreyImage& image, const CameraModel& camera,
                 double mean_inverse_depth, const Alignment& start, const AlignmentConfig& config,
-                AlignmentWorkspace& workspace) {
-  LevelAlignment level(patches, image, camera, config, workspace);
+                const PhotometryConfig& photometry, AlignmentWorkspace& workspace) {
+  LevelAlignment level(patches, image, camera, photometry, workspace);
   Alignment at = level.assess(start);
   at.converged = false;
   double damping = 0.0;
-  NormalEquations n = level.normal_equations(at);
+  NormalEquations n = level.equations(at);
   for (int i = 0; i < config.max_iterations && !at.converged; ++i) {
-    const Vector8d step = solve(n, config.affine_brightness, damping);
+    const Vector8d step = solve(n, photometry.affine_brightness, damping);
     if (!step.allFinite()) break;
     const bool small = step_px(step, camera, mean_inverse_depth) < config.convergence_px;
     if (level.try_step(at, step)) {
       damping = damping > kFirstDamping ? 0.1 * damping : 0.0;
-      n = level.normal_equations(at);
+      n = level.equations(at);
     } else {
       damping = std::max(kFirstDamping, 10.0 * damping);
     }
     at.converged = small || damping > kMostDamping;  // no descent left at all: a minimum
   }
-  at.information = marginal_information(n, config.affine_brightness, at.sigma_grey);
+  at.information = marginal_information(n, photometry.affine_brightness, at.sigma_grey);
   return at;
 }
 
 Alignment assess(const PatchSet& patches, const GreyImage& image, const CameraModel& camera,
-                 const Alignment& at, const AlignmentConfig& config,
+                 const Alignment& at, const PhotometryConfig& photometry,
                  AlignmentWorkspace& workspace) {
-  return LevelAlignment(patches, image, camera, config, workspace).assess(at);
+  return LevelAlignment(patches, image, camera, photometry, workspace).assess(at);
+}
+
+NormalEquations normal_equations(const PatchSet& patches, const Linearization& linearization,
+                                 const Alignment& at, const PhotometryConfig& photometry) {
+  NormalEquations n = accumulate(patches, linearization, photometry.student_t_dof, at.sigma_grey);
+  if (photometry.affine_brightness) add_brightness_prior(n, at);
+  return n;
 }
 
 }  // namespace sparsight

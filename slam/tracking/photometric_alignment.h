@@ -5,14 +5,13 @@
 
 #include "slam/geometry/se3.h"
 #include "slam/tracking/photometric_kernel.h"
+#include "slam/tracking/photometry_config.h"
 
 namespace sparsight {
 
 struct AlignmentConfig {
-  int max_iterations = 30;        // per pyramid level
-  double convergence_px = 0.01;   // a step that moves the points by less ends the level
-  double student_t_dof = 5.0;     // nu of eq. (5)
-  bool affine_brightness = false;  // estimate gain and offset besides the pose
+  int max_iterations = 30;       // per pyramid level
+  double convergence_px = 0.01;  // a step that moves the points by less ends the level
 };
 
 // Where a frame stands relative to its keyframe, in space and brightness, and how well it fits.
@@ -36,11 +35,16 @@ struct AlignmentWorkspace {
 // mean_inverse_depth (1/m) of the patches turns a step into pixels. Thread-bound, deterministic.
 Alignment align(const PatchSet& patches, const GreyImage& image, const CameraModel& camera,
                 double mean_inverse_depth, const Alignment& start, const AlignmentConfig& config,
-                AlignmentWorkspace& workspace);
+                const PhotometryConfig& photometry, AlignmentWorkspace& workspace);
 
-// Cost and sigma of a pose as it is, without a step.
+// Cost and sigma of a pose as it is, without a step; the linearisation is left in
+// workspace.current.
 Alignment assess(const PatchSet& patches, const GreyImage& image, const CameraModel& camera,
-                 const Alignment& at, const AlignmentConfig& config,
+                 const Alignment& at, const PhotometryConfig& photometry,
                  AlignmentWorkspace& workspace);
+
+// J^T w J and J^T w r there, with the prior on brightness if that is estimated.
+NormalEquations normal_equations(const PatchSet& patches, const Linearization& linearization,
+                                 const Alignment& at, const PhotometryConfig& photometry);
 
 }  // namespace sparsight

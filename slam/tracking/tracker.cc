@@ -2,46 +2,64 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include "slam/tracking/patch_correlation.h"
+#include "slam/tracking/starting_motions.h"
 
 namespace sparsight {
+namespace {
 
-Tracker::Tracker(const CameraModel& camera, const TrackerConfig& config) : config_(config) {
+// After the search at the coarsest level, so many of the best are followed to the finest.
+constexpr std::size_t kFollowed = 3;
+
+Alignment start_at(const Eigen::Isometry3d& T_keyframe_camera, const Brightness& brightness) {
+  Alignment at;
+  at.T_camera_keyframe = T_keyframe_camera.inverse();
+  at.brightness = brightness;
+  return at;
+}
+
+}  // namespace
+
+Tracker::Tracker(const CameraModel& camera, const TrackerConfig& config,
+                 const PhotometryConfig& photometry)
+    : config_(config), photometry_(photometry) {
   for (int level = 0; level < config.pyramid_levels; ++level) {
     cameras_.push_back(camera.at_level(level));
   }
 }
 
-TrackingResult Tracker::track_from(const Keyframe& keyframe, const ImagePyramid& image,
-                                   const Eigen::Isometry3d& start_T_keyframe_camera,
-                                   const Brightness& start_brightness, int top_level) {
-  Alignment at;
-  at.T_camera_keyframe = start_T_keyframe_camera.inverse();
-  at.brightness = start_brightness;
-  for (int level = top_level; level >= 0; --level) {
+Alignment Tracker::refine(const Keyframe& keyframe, const ImagePyramid& image,
+                          const Alignment& start, int coarsest, int finest) {
+  Alignment at = start;
+  for (int level = coarsest; level >= finest; --level) {
     const auto index = static_cast<std::size_t>(level);
     at = align(keyframe.patches[index], image.level(level), cameras_[index],
-               keyframe.mean_inverse_depth, at, config_.alignment, workspace_);
+               keyframe.mean_inverse_depth, at, config_.alignment, photometry_, workspace_);
   }
+  return at;
+}
 
-  const PatchAgreement agreement =
-      patch_agreement(keyframe.patches.front(), workspace_.current, at.brightness);
+TrackingResult Tracker::verdict(const Keyframe& keyframe, const Alignment& at,
+                                int top_level) const {
+  const PatchSet& finest = keyframe.patches.front();
+  const PatchAgreement agreement = patch_agreement(finest, workspace_.current, at.brightness);
   TrackingResult result;
   result.T_keyframe_camera = renormalized(at.T_camera_keyframe.inverse());
   result.information = at.information;
   result.brightness = at.brightness;
   result.points_used = agreement.visible_patches;
-  result.visible_ratio =
-      static_cast<double>(agreement.visible_patches) /
-      std::max<double>(1.0, static_cast<double>(keyframe.patches.front().patches));
+  result.visible_ratio = static_cast<double>(agreement.visible_patches) /
+                         std::max(1.0, static_cast<double>(finest.patches));
   result.residual_sigma_grey = at.sigma_grey;
   result.correlation = agreement.median_correlation;
   result.top_level = top_level;
   using Status = TrackingResult::Status;
   if (agreement.visible_patches < config_.min_points) {
     result.status = Status::kTooFewPoints;
-  } else if (agreement.median_correlation < config_.min_correlation ||
+  } else if (!(agreement.median_correlation >= config_.min_correlation) ||
              !result.T_keyframe_camera.matrix().allFinite()) {
     result.status = Status::kDiverged;
   } else {
@@ -50,28 +68,51 @@ TrackingResult Tracker::track_from(const Keyframe& keyframe, const ImagePyramid&
   return result;
 }
 
-TrackingResult Tracker::track(const Keyframe& keyframe, const ImagePyramid& image,
-                              const std::vector<Eigen::Isometry3d>& starts_T_keyframe_camera,
-                              const Brightness& start_brightness, double start_error_px) {
-  const int coarsest =
-      std::min({config_.pyramid_levels, image.levels(), static_cast<int>(keyframe.patches.size())}) -
-      1;
-  int top = coarsest;
-  if (config_.automatic_top_level) {
-    top = std::clamp(static_cast<int>(std::ceil(std::log2(std::max(start_error_px, 1.0)))), 0,
-                     coarsest);
+TrackingResult Tracker::search(const Keyframe& keyframe, const ImagePyramid& image,
+                               const TrackingStart& start, int coarsest) {
+  const double mean_depth_m = 1.0 / std::max(keyframe.mean_inverse_depth, 1e-3);
+  std::vector<std::pair<double, Alignment>> coarse;  // by disagreement
+  const PatchSet& patches = keyframe.patches[static_cast<std::size_t>(coarsest)];
+  for (const Eigen::Isometry3d& T_keyframe_camera :
+       starting_motions(start.T_keyframe_previous, start.T_keyframe_predicted, mean_depth_m)) {
+    const Alignment at =
+        refine(keyframe, image, start_at(T_keyframe_camera, start.brightness), coarsest, coarsest);
+    const PatchAgreement agreement = patch_agreement(patches, workspace_.current, at.brightness);
+    if (agreement.visible_patches < config_.min_points) continue;
+    coarse.emplace_back(-agreement.median_correlation, at);
   }
+  std::stable_sort(coarse.begin(), coarse.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   TrackingResult best;
-  int attempts = 0;
-  for (const Eigen::Isometry3d& start : starts_T_keyframe_camera) {
-    TrackingResult result = track_from(keyframe, image, start, start_brightness, top);
-    result.attempts = ++attempts;
-    if (attempts == 1 || result.correlation > best.correlation) best = result;
-    if (result.ok() || !config_.try_other_starts) break;
-    top = coarsest;  // the first start was wrong, or this would not be the second
+  for (std::size_t i = 0; i < std::min(coarse.size(), kFollowed); ++i) {
+    const Alignment at = refine(keyframe, image, coarse[i].second, coarsest - 1, 0);
+    const TrackingResult result = verdict(keyframe, at, coarsest);
+    if (result.ok() >= best.ok() && result.correlation > best.correlation) best = result;
   }
-  best.attempts = attempts;
+  best.attempts = static_cast<int>(coarse.size());
   return best;
+}
+
+TrackingResult Tracker::track(const Keyframe& keyframe, const ImagePyramid& image,
+                              const TrackingStart& start) {
+  const int levels =
+      std::min({config_.pyramid_levels, image.levels(), static_cast<int>(keyframe.patches.size())});
+  const bool known = std::isfinite(start.error_px);
+  int top = levels - 1;
+  if (config_.automatic_top_level && known) {
+    // A start within about a pixel is within reach of the linearisation.
+    top = std::clamp(static_cast<int>(std::ceil(std::log2(std::max(start.error_px, 1.0)))), 0, top);
+  }
+  const Alignment at =
+      refine(keyframe, image, start_at(start.T_keyframe_predicted, start.brightness), top, 0);
+  TrackingResult result = verdict(keyframe, at, top);
+  result.attempts = 1;
+  if (!config_.try_other_starts || (known && result.ok())) return result;
+
+  TrackingResult searched = search(keyframe, image, start, levels - 1);
+  searched.attempts += result.attempts;
+  return searched.ok() >= result.ok() && searched.correlation > result.correlation ? searched
+                                                                                   : result;
 }
 
 }  // namespace sparsight

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "slam/geometry/camera_model.h"
@@ -14,13 +15,12 @@ namespace sparsight {
 struct TrackerConfig {
   int pyramid_levels = 4;
   AlignmentConfig alignment;
-  PatchConfig patches;
   // Starts at the level where the expected error of the start is about a pixel; otherwise always at
   // the coarsest. At speed, coarse levels lead away from a good start.
   bool automatic_top_level = false;
   bool try_other_starts = true;
-  int min_points = 30;             // visible patches, fewer cannot be tracked
-  double min_correlation = 0.5;    // of the patches with the image, below: diverged
+  int min_points = 30;           // visible patches, fewer cannot be tracked
+  double min_correlation = 0.5;  // of the patches with the image, below: diverged
 };
 
 struct TrackingResult {
@@ -32,30 +32,40 @@ struct TrackingResult {
   int points_used = 0;
   double visible_ratio = 0.0;  // share of the keyframe's points that project into the image
   double residual_sigma_grey = 0.0;
-  double correlation = 0.0;    // median over the patches of their correlation with the image
+  double correlation = 0.0;  // median over the patches of their correlation with the image
   int top_level = 0;
-  int attempts = 0;            // starting motions tried
+  int attempts = 0;  // starting motions tried
 
   bool ok() const { return status == Status::kConverged || status == Status::kIterationLimit; }
+};
+
+// Where the frame is expected.
+struct TrackingStart {
+  Eigen::Isometry3d T_keyframe_previous = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_keyframe_predicted = Eigen::Isometry3d::Identity();
+  Brightness brightness;
+  double error_px = std::numeric_limits<double>::infinity();  // of the prediction, in the image
 };
 
 // Direct tracking of a frame against a keyframe, Sec. IV-C. Thread-bound.
 class Tracker {
  public:
-  Tracker(const CameraModel& camera, const TrackerConfig& config);
+  Tracker(const CameraModel& camera, const TrackerConfig& config,
+          const PhotometryConfig& photometry);
 
-  // The starts are tried in their order until one succeeds. start_error_px: how far the first start
-  // may be off in the image.
   TrackingResult track(const Keyframe& keyframe, const ImagePyramid& image,
-                       const std::vector<Eigen::Isometry3d>& starts_T_keyframe_camera,
-                       const Brightness& start_brightness, double start_error_px);
+                       const TrackingStart& start);
 
  private:
-  TrackingResult track_from(const Keyframe& keyframe, const ImagePyramid& image,
-                            const Eigen::Isometry3d& start_T_keyframe_camera,
-                            const Brightness& start_brightness, int top_level);
+  // Coarse to fine, both levels included; leaves the last linearisation in the workspace.
+  Alignment refine(const Keyframe& keyframe, const ImagePyramid& image, const Alignment& start,
+                   int coarsest, int finest);
+  TrackingResult verdict(const Keyframe& keyframe, const Alignment& at, int top_level) const;
+  TrackingResult search(const Keyframe& keyframe, const ImagePyramid& image,
+                        const TrackingStart& start, int coarsest);
 
   TrackerConfig config_;
+  PhotometryConfig photometry_;
   std::vector<CameraModel> cameras_;  // per level
   AlignmentWorkspace workspace_;
 };

@@ -27,10 +27,27 @@ void visit_fields(Visitor& profile, PointSelectionConfig& points) {
 }
 
 template <typename Visitor>
+void visit_fields(Visitor& profile, PhotometryConfig& photometry) {
+  profile.field("student_t_dof", photometry.student_t_dof, {0.1, 1000.0});
+  profile.field("gradient_weight_constant", photometry.gradient_weight_constant, {0.0, 1000.0});
+  profile.field("affine_brightness", photometry.affine_brightness);
+  profile.field("patch_weights", photometry.patch_weights);
+}
+
+template <typename Visitor>
+void visit_fields(Visitor& profile, AlignmentConfig& alignment) {
+  profile.field("max_iterations", alignment.max_iterations, {1, 1000});
+  profile.field("convergence_px", alignment.convergence_px, {1e-6, 10.0});
+}
+
+template <typename Visitor>
 void visit_fields(Visitor& profile, TrackerConfig& tracker) {
   profile.field("pyramid_levels", tracker.pyramid_levels, {1, 10});
-  profile.field("max_iterations", tracker.max_iterations, {1, 1000});
-  profile.field("student_t_dof", tracker.student_t_dof, {0.1, 1000.0});
+  profile.table("alignment", tracker.alignment);
+  profile.field("automatic_top_level", tracker.automatic_top_level);
+  profile.field("try_other_starts", tracker.try_other_starts);
+  profile.field("min_points", tracker.min_points, {6, 100000});
+  profile.field("min_correlation", tracker.min_correlation, {-1.0, 1.0});
 }
 
 template <typename Visitor>
@@ -43,11 +60,16 @@ template <typename Visitor>
 void visit_fields(Visitor& profile, WindowConfig& window) {
   profile.field("size", window.size, {2, 50});
   profile.field("max_iterations", window.max_iterations, {0, 1000});
+  profile.field("convergence_px", window.convergence_px, {1e-6, 10.0});
+  profile.field("min_visible_ratio", window.min_visible_ratio, kShare);
+  profile.field("min_points", window.min_points, {6, 100000});
+  profile.field("min_correlation", window.min_correlation, {-1.0, 1.0});
 }
 
 template <typename Visitor>
 void visit_fields(Visitor& profile, OdometryConfig& odometry) {
   profile.table("points", odometry.points);
+  profile.table("photometry", odometry.photometry);
   profile.table("tracker", odometry.tracker);
   profile.table("keyframes", odometry.keyframes);
   profile.table("window", odometry.window);

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+
+#include "hal/time.h"
+#include "slam/geometry/se3.h"
+
+namespace sparsight {
+
+// The constant-motion model of Sec. III: where the camera should be now, from where it was.
+class MotionModel {
+ public:
+  // The frame at `exposure` stands at T_keyframe_camera of the current keyframe.
+  void observe(HostTime exposure, const Eigen::Isometry3d& T_keyframe_camera);
+  // The last observed frame is the keyframe from now on.
+  void rebase();
+  // Forgets the velocity: what was observed is not to be continued.
+  void forget_velocity() { twist_.reset(); }
+
+  bool started() const { return last_exposure_.has_value(); }
+  // Camera-frame velocity [rad/s, m/s]; nothing before two frames were observed.
+  const std::optional<Vector6d>& twist() const { return twist_; }
+  const Eigen::Isometry3d& T_keyframe_last() const { return T_keyframe_last_; }
+  Eigen::Isometry3d predict_T_keyframe_camera(HostTime exposure) const;
+
+ private:
+  std::optional<HostTime> last_exposure_;
+  Eigen::Isometry3d T_keyframe_last_ = Eigen::Isometry3d::Identity();
+  std::optional<Vector6d> twist_;
+};
+
+}  // namespace sparsight

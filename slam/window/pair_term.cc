@@ -1,0 +1,53 @@
+#include "slam/window/pair_term.h"
+
+#include <Eigen/LU>
+
+#include "slam/tracking/patch_correlation.h"
+
+namespace sparsight {
+namespace {
+
+constexpr int kFinest = 0;
+
+void eliminate_brightness(const NormalEquations& n, double information_scale, PairTerm& term) {
+  const Eigen::Matrix<double, 6, 2> C = n.H.topRightCorner<6, 2>();
+  const Eigen::Matrix2d B_inverse = n.H.bottomRightCorner<2, 2>().inverse();
+  term.brightness_step = -B_inverse * n.b.tail<2>();
+  term.d_brightness_d_pose = -B_inverse * C.transpose();
+  term.H += information_scale * C * term.d_brightness_d_pose;
+  term.b += information_scale * C * term.brightness_step;
+}
+
+}  // namespace
+
+PairTerm pair_term(const Keyframe& host, const Keyframe& target, const CameraModel& camera,
+                   const Alignment& start, const PhotometryConfig& photometry,
+                   AlignmentWorkspace& workspace) {
+  const PatchSet& patches = host.patches[kFinest];
+  PairTerm term;
+  term.at = assess(patches, target.pyramid.level(kFinest), camera, start, photometry, workspace);
+  const NormalEquations n = normal_equations(patches, workspace.current, term.at, photometry);
+  const double information_scale = 1.0 / (term.at.sigma_grey * term.at.sigma_grey);
+  term.H = information_scale * n.H.topLeftCorner<6, 6>();
+  term.b = information_scale * n.b.head<6>();
+  if (photometry.affine_brightness) eliminate_brightness(n, information_scale, term);
+
+  for (const float weight : workspace.current.weight) term.pixels += static_cast<double>(weight);
+  term.energy = term.pixels * term.at.cost * information_scale;
+  const PatchAgreement agreement = patch_agreement(patches, workspace.current, term.at.brightness);
+  term.visible_patches = agreement.visible_patches;
+  term.correlation = agreement.median_correlation;
+  return term;
+}
+
+double energy_at(const PairTerm& term, const Keyframe& host, const Keyframe& target,
+                 const CameraModel& camera, const Alignment& at, const PhotometryConfig& photometry,
+                 AlignmentWorkspace& workspace) {
+  linearize(host.patches[kFinest], target.pyramid.level(kFinest), camera, at.T_camera_keyframe,
+            at.brightness, workspace.current);
+  const double sigma = term.at.sigma_grey;
+  return term.pixels * robust_cost(workspace.current, photometry.student_t_dof, sigma) /
+         (sigma * sigma);
+}
+
+}  // namespace sparsight

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "slam/geometry/camera_model.h"
+#include "slam/geometry/se3.h"
+#include "slam/keyframe.h"
+#include "slam/tracking/photometric_alignment.h"
+
+namespace sparsight {
+
+// One summand of eq. (6): the points of one keyframe (host) seen in another (target), to second
+// order in the relative pose. The brightness between the two images is a nuisance of this pair
+// alone and is eliminated from it.
+struct PairTerm {
+  Alignment at;                   // T_target_host, brightness, sigma
+  Matrix6d H = Matrix6d::Zero();  // of the left increment of T_target_host, over sigma^2
+  Vector6d b = Vector6d::Zero();
+  double energy = 0.0;  // robust cost of all visible pixels, over sigma^2
+  double pixels = 0.0;  // their weight
+  // Brightness follows the pose: d_brightness = brightness_step + d_brightness_d_pose * xi.
+  Eigen::Vector2d brightness_step = Eigen::Vector2d::Zero();
+  Eigen::Matrix<double, 2, 6> d_brightness_d_pose = Eigen::Matrix<double, 2, 6>::Zero();
+
+  int visible_patches = 0;
+  double correlation = 0.0;
+};
+
+// Linearises at start.T_camera_keyframe, with sigma estimated there.
+PairTerm pair_term(const Keyframe& host, const Keyframe& target, const CameraModel& camera,
+                   const Alignment& start, const PhotometryConfig& photometry,
+                   AlignmentWorkspace& workspace);
+
+// What term.energy becomes elsewhere, for the same sigma and the same number of pixels.
+double energy_at(const PairTerm& term, const Keyframe& host, const Keyframe& target,
+                 const CameraModel& camera, const Alignment& at, const PhotometryConfig& photometry,
+                 AlignmentWorkspace& workspace);
+
+}  // namespace sparsight

@@ -1,0 +1,220 @@
+#include "slam/window/window_optimizer.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace sparsight {
+namespace {
+
+constexpr double kFirstDamping = 1e-3;
+constexpr double kMostDamping = 1e3;
+
+const Eigen::Isometry3d& linearization_point(const Keyframe& keyframe) {
+  return keyframe.T_world_camera_first ? *keyframe.T_world_camera_first : keyframe.T_world_camera;
+}
+
+Eigen::VectorXd solve_holding_oldest(const Quadratic& energy, double damping) {
+  const Eigen::Index free = energy.b.size() - 6;
+  Eigen::MatrixXd H = energy.H.bottomRightCorner(free, free);
+  H.diagonal() *= 1.0 + damping;
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(energy.b.size());
+  step.tail(free) = H.ldlt().solve(-energy.b.tail(free));
+  return step;
+}
+
+}  // namespace
+
+WindowOptimizer::WindowOptimizer(const CameraModel& camera, const WindowConfig& config,
+                                 const PhotometryConfig& photometry)
+    : camera_(camera), config_(config), photometry_(photometry) {}
+
+void WindowOptimizer::add(std::unique_ptr<Keyframe> keyframe) {
+  keyframes_.push_back(std::move(keyframe));
+  Quadratic grown(size());
+  grown.H.topLeftCorner(prior_.H.rows(), prior_.H.cols()) = prior_.H;
+  grown.b.head(prior_.b.size()) = prior_.b;
+  prior_ = std::move(grown);
+}
+
+Alignment WindowOptimizer::alignment_of(int host, int target) const {
+  Alignment at;
+  at.T_camera_keyframe = keyframe(target).T_world_camera.inverse() * keyframe(host).T_world_camera;
+  const auto known = brightness_.find({keyframe(host).sequence, keyframe(target).sequence});
+  if (known != brightness_.end()) at.brightness = known->second;
+  return at;
+}
+
+PairTerm WindowOptimizer::linearize_pair(int host, int target) {
+  return pair_term(keyframe(host), keyframe(target), camera_, alignment_of(host, target),
+                   photometry_, workspace_);
+}
+
+void WindowOptimizer::linearize_pairs(std::vector<Pair>& pairs) {
+  for (Pair& pair : pairs) pair.term = linearize_pair(pair.host, pair.target);
+}
+
+std::vector<WindowOptimizer::Pair> WindowOptimizer::covisible_pairs() {
+  std::vector<Pair> pairs;
+  for (int host = 0; host < size(); ++host) {
+    const int enough = std::max(
+        config_.min_points, static_cast<int>(config_.min_visible_ratio *
+                                             static_cast<double>(keyframe(host).points.size())));
+    for (int target = 0; target < size(); ++target) {
+      if (host == target) continue;
+      Pair pair{host, target, linearize_pair(host, target)};
+      if (pair.term.visible_patches < enough) continue;
+      if (pair.term.correlation < config_.min_correlation) continue;
+      pairs.push_back(std::move(pair));
+    }
+  }
+  return pairs;
+}
+
+// xi = Ad(T_target_host) eta_host - eta_target. The adjoint is taken at the first estimates of
+// poses that the prior touches, so that prior and new terms agree on what they cannot observe, the
+// pose of the whole window (first-estimate Jacobians; Huang et al. 2009, and DSO, Sec. 2.3).
+Matrix6d WindowOptimizer::d_relative_d_host(const Pair& pair) const {
+  return adjoint(linearization_point(keyframe(pair.target)).inverse() *
+                 linearization_point(keyframe(pair.host)));
+}
+
+Eigen::VectorXd WindowOptimizer::increments_since_first() const {
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(6 * size());
+  for (int i = 0; i < size(); ++i) {
+    d.segment<6>(6 * i) =
+        log_se3(linearization_point(keyframe(i)).inverse() * keyframe(i).T_world_camera);
+  }
+  return d;
+}
+
+// Pairs and prior, b taken at the current poses.
+Quadratic WindowOptimizer::energy_about_current(const std::vector<Pair>& pairs) const {
+  Quadratic sum(size());
+  sum.H = prior_.H;
+  sum.b = prior_.b + prior_.H * increments_since_first();
+  for (const Pair& pair : pairs) {
+    const int h = 6 * pair.host;
+    const int t = 6 * pair.target;
+    const Matrix6d A = d_relative_d_host(pair);
+    const Matrix6d HA = pair.term.H * A;
+    sum.H.block<6, 6>(h, h) += A.transpose() * HA;
+    sum.H.block<6, 6>(t, t) += pair.term.H;
+    sum.H.block<6, 6>(t, h) -= HA;
+    sum.H.block<6, 6>(h, t) -= HA.transpose();
+    sum.b.segment<6>(h) += A.transpose() * pair.term.b;
+    sum.b.segment<6>(t) -= pair.term.b;
+  }
+  return sum;
+}
+
+double WindowOptimizer::prior_energy() const {
+  const Eigen::VectorXd d = increments_since_first();
+  return d.dot(0.5 * (prior_.H * d) + prior_.b);
+}
+
+double WindowOptimizer::total_energy(const std::vector<Pair>& pairs) const {
+  double energy = prior_energy();
+  for (const Pair& pair : pairs) energy += pair.term.energy;
+  return energy;
+}
+
+void WindowOptimizer::move(const Eigen::VectorXd& step) {
+  for (int i = 0; i < size(); ++i) {
+    Keyframe& moved = *keyframes_[static_cast<std::size_t>(i)];
+    moved.T_world_camera = renormalized(moved.T_world_camera * exp_se3(step.segment<6>(6 * i)));
+  }
+}
+
+// Takes the step if it lowers the energy for the scales it was computed with.
+bool WindowOptimizer::descend(std::vector<Pair>& pairs, const Eigen::VectorXd& step) {
+  std::vector<Eigen::Isometry3d> poses;
+  for (const auto& keyframe : keyframes_) poses.push_back(keyframe->T_world_camera);
+  const std::map<PairKey, Brightness> brightness = brightness_;
+  const double before = total_energy(pairs);
+
+  move(step);
+  double after = prior_energy();
+  for (const Pair& pair : pairs) {
+    if (photometry_.affine_brightness) {
+      const Vector6d xi = d_relative_d_host(pair) * step.segment<6>(6 * pair.host) -
+                          step.segment<6>(6 * pair.target);
+      const Eigen::Vector2d d = pair.term.brightness_step + pair.term.d_brightness_d_pose * xi;
+      brightness_[{keyframe(pair.host).sequence, keyframe(pair.target).sequence}] = {
+          pair.term.at.brightness.gain + d.x(), pair.term.at.brightness.offset + d.y()};
+    }
+    after += energy_at(pair.term, keyframe(pair.host), keyframe(pair.target), camera_,
+                       alignment_of(pair.host, pair.target), photometry_, workspace_);
+  }
+  if (after < before) return true;
+  for (std::size_t i = 0; i < keyframes_.size(); ++i) keyframes_[i]->T_world_camera = poses[i];
+  brightness_ = brightness;
+  return false;
+}
+
+WindowSummary WindowOptimizer::optimize() {
+  WindowSummary summary;
+  std::vector<Pair> pairs = covisible_pairs();
+  summary.pairs = static_cast<int>(pairs.size());
+  summary.initial_energy = summary.final_energy = total_energy(pairs);
+  if (size() < 2 || pairs.empty()) return summary;
+
+  double damping = 0.0;
+  while (summary.iterations < config_.max_iterations && !summary.converged) {
+    ++summary.iterations;
+    const Eigen::VectorXd step = solve_holding_oldest(energy_about_current(pairs), damping);
+    if (!step.allFinite()) break;
+    double largest_px = 0.0;
+    for (int i = 1; i < size(); ++i) {
+      largest_px = std::max(
+          largest_px, camera_.intrinsics().fx *
+                          (step.segment<3>(6 * i).norm() +
+                           step.segment<3>(6 * i + 3).norm() * keyframe(i).mean_inverse_depth));
+    }
+    if (descend(pairs, step)) {
+      damping = damping > kFirstDamping ? 0.1 * damping : 0.0;
+      linearize_pairs(pairs);
+    } else {
+      damping = std::max(kFirstDamping, 10.0 * damping);
+    }
+    summary.converged = largest_px < config_.convergence_px || damping > kMostDamping;
+  }
+  summary.final_energy = total_energy(pairs);
+  return summary;
+}
+
+MarginalizedKeyframe WindowOptimizer::marginalize_oldest() {
+  MarginalizedKeyframe result;
+  if (size() > 1) {
+    const std::vector<Pair> all = covisible_pairs();
+    const Quadratic everything = energy_about_current(all);
+    // From the successor's body increment to the left increment of T_keyframe_successor.
+    const Matrix6d A = adjoint(keyframe(1).T_world_camera.inverse() * keyframe(0).T_world_camera);
+    result.successor_information = A.transpose() * information_of_second(everything) * A;
+
+    // Only the terms that involve the leaver go into the prior; the others are evaluated anew.
+    std::vector<Pair> leaving;
+    for (const Pair& pair : all) {
+      if (pair.host == 0 || pair.target == 0) leaving.push_back(pair);
+    }
+    Quadratic energy = energy_about_current(leaving);
+    energy.b -= energy.H * increments_since_first();  // about the first estimates again
+    prior_ = without_first(energy);
+    for (std::size_t i = 1; i < keyframes_.size(); ++i) {
+      Keyframe& touched = *keyframes_[i];
+      if (!touched.T_world_camera_first) touched.T_world_camera_first = touched.T_world_camera;
+    }
+  } else {
+    prior_ = Quadratic(0);
+  }
+  const std::uint64_t leaver = keyframes_.front()->sequence;
+  std::erase_if(brightness_, [&](const auto& entry) {
+    return entry.first.first == leaver || entry.first.second == leaver;
+  });
+  result.keyframe = std::move(keyframes_.front());
+  keyframes_.erase(keyframes_.begin());
+  return result;
+}
+
+}  // namespace sparsight
