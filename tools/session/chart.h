@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,9 +28,10 @@ struct Chart {
   std::string y_label;
   double width_px = 920.0;
   double height_px = 240.0;
-  bool equal_axes = false;           // a metre is as long upwards as sideways
-  bool whole_x = false;              // x counts something
-  std::optional<double> y_includes;  // a value the y axis shows in any case
+  bool equal_axes = false;         // a metre is as long upwards as sideways
+  bool whole_x = false;            // x counts something
+  std::vector<double> x_includes;  // values the axes show in any case
+  std::vector<double> y_includes;
   std::vector<std::string> x_names;  // for bars: the names of x = 0, 1, 2 ...
   std::vector<ChartSeries> series;
 };

@@ -7,7 +7,7 @@ namespace {
 
 using Kind = ChartSeries::Kind;
 
-constexpr double kLeft_px = 64.0;  // room for the labels of the y axis
+constexpr double kLeft_px = 70.0;  // room for the labels of the y axis
 constexpr double kRight_px = 14.0;
 constexpr double kTop_px = 8.0;
 constexpr double kBottom_px = 44.0;
@@ -29,7 +29,8 @@ ChartPlane::ChartPlane(const Chart& chart)
       height_(chart.height_px - kTop_px - kBottom_px),
       whole_x_(chart.whole_x) {
   for (const ChartSeries& series : chart.series) include(series);
-  if (chart.y_includes) y_.include(*chart.y_includes);
+  for (const double x : chart.x_includes) x_.include(x);
+  for (const double y : chart.y_includes) y_.include(y);
   x_ = x_range(chart, x_);
   if (chart.equal_axes) {
     equalize();

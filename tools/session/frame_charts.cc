@@ -42,7 +42,11 @@ Chart frame_chart(const Session& session, const char* title, const char* y_label
               .y_label = y_label,
               .height_px = 210.0,
               .whole_x = true,
-              .y_includes = 0.0};
+              .y_includes = {0.0}};
+  if (!session.frames.empty()) {  // the same frames, so that charts line up
+    chart.x_includes = {static_cast<double>(session.frames.front().sequence),
+                        static_cast<double>(session.frames.back().sequence)};
+  }
   chart.series.push_back(over_frames(session, Kind::kRug, "predicted, not measured", "fault",
                                      predicted, [](const auto&) { return 0.0; }));
   return chart;
@@ -97,7 +101,7 @@ Chart visibility_chart(const Session& session) {
                           .name = fmt::format("keyframe below {:g}", threshold),
                           .ink = "dashed",
                           .points = {{0.0, threshold}}});
-  chart.y_includes = 1.0;
+  chart.y_includes = {1.0};
   return chart;
 }
 

@@ -141,7 +141,7 @@ Chart position_error_chart(const GroundTruth& truth) {
   Chart chart{.title = "Distance from the ground truth, best aligned",
               .x_label = "distance travelled (m)",
               .y_label = "error (m)",
-              .y_includes = 0.0};
+              .y_includes = {0.0}};
   const Curve heights = height_over_distance(truth.positions);
   ChartSeries error{.kind = Kind::kCurve, .name = "each frame", .ink = "estimate"};
   const auto& errors_m = truth.evaluation.ate.errors_m;

@@ -52,7 +52,9 @@ std::string heading_of(const Session& session) {
   if (session.truth) {
     heading += fmt::format("<p>ground truth {}</p>\n", escaped(session.truth->file.string()));
   }
-  if (!session.complete) heading += "<p class=\"note\">Stopped before the end of the source.</p>\n";
+  if (session.broke_off) {
+    heading += fmt::format("<p class=\"note\">Not complete: {}</p>\n", escaped(*session.broke_off));
+  }
   for (const std::string& note : session.notes) {
     heading += fmt::format("<p class=\"note\">{}</p>\n", escaped(note));
   }

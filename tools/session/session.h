@@ -44,6 +44,7 @@ struct Session {
   std::size_t map_points = 0;
   std::chrono::nanoseconds wall_time{};  // reading included
   bool complete = false;                 // the source was read to its end (or to --max-frames)
+  std::optional<std::string> broke_off;  // why it was not
   std::optional<GroundTruth> truth;
   std::vector<std::string> notes;  // what a person must know before trusting the figures
 };

@@ -48,12 +48,14 @@ Result<void> SessionRecorder::begin() {
   return write_file(folder_ / "session.json", session_json(session_, {}));
 }
 
-bool SessionRecorder::add(const FrameRecord& record) {
+std::vector<Error> SessionRecorder::add(const FrameRecord& record) {
   session_.frames.push_back(figures_of(record));
   journal_.stream() << frames_csv_line(session_.frames.back());
   journal_.flush();
-  bool news = false;
-  for (const Error& fault : record.faults) news |= session_.faults.add(record.sequence, fault);
+  std::vector<Error> news;
+  for (const Error& fault : record.faults) {
+    if (session_.faults.add(record.sequence, fault)) news.push_back(fault);
+  }
   return news;
 }
 
@@ -63,11 +65,11 @@ void SessionRecorder::add(const RetiredKeyframe& keyframe) {
 }
 
 void SessionRecorder::end(std::vector<TrajectoryPose> trajectory,
-                          std::chrono::nanoseconds wall_time, bool complete) {
+                          std::chrono::nanoseconds wall_time) {
   session_.trajectory =
       trajectory.empty() ? poses_as_tracked(session_.frames) : std::move(trajectory);
   session_.wall_time = wall_time;
-  session_.complete = complete;
+  session_.complete = !session_.broke_off;
 }
 
 Result<void> SessionRecorder::write() {

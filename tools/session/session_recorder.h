@@ -20,12 +20,11 @@ class SessionRecorder {
 
   // Marks a new folder as a session's, so that after a crash it may be replaced.
   Result<void> begin();
-  // True if the frame shows a fault of a kind not seen before.
-  bool add(const FrameRecord& record);
+  // Returns the frame's faults that are the first of their kind.
+  std::vector<Error> add(const FrameRecord& record);
   void add(const RetiredKeyframe& keyframe);
   // An empty trajectory (a run that broke off) stands for the poses as they were when tracked.
-  void end(std::vector<TrajectoryPose> trajectory, std::chrono::nanoseconds wall_time,
-           bool complete);
+  void end(std::vector<TrajectoryPose> trajectory, std::chrono::nanoseconds wall_time);
   Result<void> write();
 
   Session& session() { return session_; }

@@ -49,7 +49,7 @@ std::string y_axis(const Chart& chart, const ChartPlane& plane) {
   }
   const double middle = 0.5 * (plane.top() + plane.bottom());
   svg += fmt::format(
-      R"svg(<text class="below label" transform="translate(14 {:.1f}) rotate(-90)">)svg", middle);
+      R"svg(<text class="below label" transform="translate(13 {:.1f}) rotate(-90)">)svg", middle);
   return svg + escaped(chart.y_label) + "</text>";
 }
 

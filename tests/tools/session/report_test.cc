@@ -61,10 +61,10 @@ TEST(Report, SessionWithoutFramesStillMakesAPage) {
 
 TEST(Report, IncompleteSessionAndNotesAreShown) {
   Session session = sample_session(20);
-  session.complete = false;
-  session.notes.emplace_back("the replay broke off: no reason");
-  EXPECT_THAT(report_of(session), HasSubstr("Stopped before the end"));
-  EXPECT_THAT(report_of(session), HasSubstr("broke off: no reason"));
+  session.broke_off = "stopped on request";
+  session.notes.emplace_back("the ground truth is <elsewhere>");
+  EXPECT_THAT(report_of(session), HasSubstr("Not complete: stopped on request"));
+  EXPECT_THAT(report_of(session), HasSubstr("the ground truth is &lt;elsewhere&gt;"));
 }
 
 }  // namespace
