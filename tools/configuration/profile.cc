@@ -13,7 +13,8 @@
 namespace sparsight {
 namespace {
 
-// Writes the fields of one struct after its [table] line.
+// Writes the fields of one struct after its [table] line, then the tables in it: in TOML, a key
+// after a nested table's line would be the nested one's.
 class ProfileWriter {
  public:
   explicit ProfileWriter(std::string& toml, std::string path = {})
@@ -43,14 +44,17 @@ class ProfileWriter {
   template <typename Struct>
   void table(std::string_view key, Struct& value) {
     const std::string path = path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
-    toml_ += fmt::format("{}[{}]\n", toml_.empty() ? "" : "\n", path);
-    ProfileWriter writer(toml_, path);
+    std::string fields;
+    ProfileWriter writer(fields, path);
     visit_fields(writer, value);
+    tables_ += fmt::format("\n[{}]\n{}{}", path, fields, writer.tables_);
   }
+  const std::string& tables() const { return tables_; }
 
  private:
   std::string& toml_;
   std::string path_;
+  std::string tables_;
 };
 
 Error error_of(std::vector<ProfileError> errors, std::string_view file) {
@@ -110,7 +114,7 @@ std::string describe_profile(const OdometryConfig& config) {
   ProfileWriter writer(toml);
   OdometryConfig copy = config;  // visited fields are never const
   visit_fields(writer, copy);
-  return toml;
+  return toml + writer.tables();
 }
 
 }  // namespace sparsight

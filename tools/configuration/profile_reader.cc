@@ -31,6 +31,7 @@ std::string_view nearest(std::string_view key, const std::vector<std::string_vie
 }
 
 std::string text_of(const toml::node& node) {
+  if (node.is_floating_point()) return fmt::format("{}", node.as_floating_point()->get());
   std::ostringstream text;
   node.visit([&](const auto& value) { text << value; });
   return text.str();

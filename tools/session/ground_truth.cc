@@ -1,5 +1,9 @@
 #include "tools/session/ground_truth.h"
 
+#include <fmt/format.h>
+
+#include "tools/evaluation/association.h"
+
 namespace sparsight {
 namespace {
 
@@ -14,6 +18,17 @@ Trajectory estimate_of(const std::vector<TrajectoryPose>& trajectory, bool with_
     if (with_times) estimate.times.push_back(pose.exposure);
   }
   return estimate;
+}
+
+std::vector<Eigen::Vector3d> positions_in_world(const Trajectory& estimate, const Trajectory& truth,
+                                                const std::vector<IndexPair>& pairs) {
+  std::vector<Eigen::Vector3d> positions;
+  const Eigen::Isometry3d T_world_truth =
+      estimate.poses[pairs.front().estimate] * truth.poses[pairs.front().truth].inverse();
+  for (const IndexPair& pair : pairs) {
+    positions.emplace_back(T_world_truth * truth.poses[pair.truth].translation());
+  }
+  return positions;
 }
 
 }  // namespace
@@ -43,7 +58,30 @@ Result<GroundTruth> compare_with_ground_truth(const std::vector<TrajectoryPose>&
     evaluation = evaluate_trajectories(estimate, *truth, options);
   }
   if (!evaluation) return tl::unexpected(evaluation.error());
-  return GroundTruth{file, *std::move(truth), *std::move(evaluation)};
+  const auto pairs = associate(estimate, *truth, options.max_time_difference);
+  if (!pairs) return tl::unexpected(pairs.error());
+  return GroundTruth{file, *std::move(evaluation), positions_in_world(estimate, *truth, *pairs)};
+}
+
+void add_ground_truth(Session& session, const std::optional<fs::path>& given) {
+  const fs::path& source = session.description.source;
+  const int camera = session.description.camera;
+  const auto file = given ? given : find_ground_truth(source, camera);
+  if (!file) {
+    if (const auto other = find_ground_truth(source, 0)) {
+      session.notes.push_back(fmt::format(
+          "{} is the path of camera 0, so camera {} is not compared with it (--ground-truth is)",
+          other->string(), camera));
+    }
+    return;
+  }
+  auto truth = compare_with_ground_truth(session.trajectory, *file);
+  if (truth) {
+    session.truth = *std::move(truth);
+  } else {
+    session.notes.push_back(
+        fmt::format("no comparison with {}: {}", file->string(), truth.error().message));
+  }
 }
 
 }  // namespace sparsight

@@ -64,8 +64,9 @@ void run(FrameSource& source, const ReplayOptions& options, SessionRecorder& rec
   Progress progress(stderr, Progress::style_for(stderr, options.quiet),
                     frames_to_come(source, options));
   const auto on_frame = [&](const FrameRecord& record) {
-    if (recorder.add(record)) {
-      progress.say(fmt::format("frame {}: {}", record.sequence, record.faults.front().message));
+    for (const Error& fault : recorder.add(record)) {
+      progress.say(fmt::format("frame {}: {} (more of this kind are only counted)", record.sequence,
+                               fault.message));
     }
     progress.frame(record.exposure, name_of(record.outcome.status));
   };
@@ -75,47 +76,42 @@ void run(FrameSource& source, const ReplayOptions& options, SessionRecorder& rec
   InterruptibleSource interruptible(source, interrupt);
   const auto start = Clock::now();
   std::vector<TrajectoryPose> trajectory;
-  bool complete = false;
   try {
     Odometry odometry(source.calibration(), options.config);
     trajectory = replay_deterministic(interruptible, odometry, options.max_frames,
                                       {.on_frame = on_frame, .on_keyframe = on_keyframe});
-    complete = !interrupt.pending();
+    if (interrupt.pending()) recorder.session().broke_off = "stopped on request";
   } catch (const std::exception& error) {
-    recorder.session().notes.push_back(fmt::format("the replay broke off: {}", error.what()));
+    recorder.session().broke_off = fmt::format("the replay broke off: {}", error.what());
   }
   progress.end();
-  recorder.end(std::move(trajectory), Clock::now() - start, complete);
+  recorder.end(std::move(trajectory), Clock::now() - start);
 }
 
-void compare(const ReplayOptions& options, Session& session) {
-  const auto file = options.ground_truth
-                        ? options.ground_truth
-                        : find_ground_truth(options.source, session.description.camera);
-  if (!file) return;
-  auto truth = compare_with_ground_truth(session.trajectory, *file);
-  if (truth) {
-    session.truth = *std::move(truth);
-  } else {
-    session.notes.push_back(
-        fmt::format("not compared with ground truth: {}", truth.error().message));
-  }
+// A ground truth that cannot be read is told before hours are spent, not after.
+Result<void> check_ground_truth(const std::optional<std::filesystem::path>& file) {
+  if (!file) return {};
+  return read_trajectory(*file).map([](const Trajectory&) {});
 }
 
 }  // namespace
 
 Result<ReplayResult> replay_session(const ReplayOptions& options) {
+  if (auto checked = check_ground_truth(options.ground_truth); !checked) {
+    return tl::unexpected(checked.error());
+  }
   auto source = open_dataset(options.source, {.rays = options.rays, .camera = options.camera});
   if (!source) return tl::unexpected(source.error());
   auto folder = claim_session_folder(options.output, options.source, options.rays);
   if (!folder) return tl::unexpected(folder.error());
 
-  SessionRecorder recorder(*folder, describe(options, (*source)->calibration()));
+  SessionRecorder recorder(*folder, describe(options, (*source)->calibration()), options.map);
   if (auto begun = recorder.begin(); !begun) return tl::unexpected(begun.error());
   run(**source, options, recorder);
-  compare(options, recorder.session());
+  add_ground_truth(recorder.session(), options.ground_truth);
   if (auto written = recorder.write(); !written) return tl::unexpected(written.error());
-  return ReplayResult{*folder, std::move(recorder.session())};
+  auto failure = failure_of(recorder.session());
+  return ReplayResult{*folder, std::move(recorder.session()), std::move(failure)};
 }
 
 }  // namespace sparsight

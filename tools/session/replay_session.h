@@ -27,10 +27,11 @@ struct ReplayOptions {
 struct ReplayResult {
   std::filesystem::path folder;
   Session session;
+  std::optional<Error> failure;  // see failure_of()
 };
 
-// Replays a source into a session folder. Fails if the source cannot be opened, the folder cannot
-// be written, or no frame could be tracked; what was computed is written all the same.
+// Replays a source into a session folder; what was computed until something failed is in it. An
+// error if there is no session: the source cannot be opened, or the folder not be written.
 Result<ReplayResult> replay_session(const ReplayOptions& options);
 
 }  // namespace sparsight

@@ -28,8 +28,10 @@ struct SessionDescription {
 // The true path and what the comparison says.
 struct GroundTruth {
   std::filesystem::path file;
-  Trajectory trajectory;
   Evaluation evaluation;
+  // Where the evaluated frames (evaluation.estimate_indices) were in truth, in the session's world:
+  // the first of them stands where the estimate has it.
+  std::vector<Eigen::Vector3d> positions;
 };
 
 // Everything a session leaves behind but the map.
@@ -42,6 +44,7 @@ struct Session {
   std::size_t map_points = 0;
   std::chrono::nanoseconds wall_time{};  // reading included
   bool complete = false;                 // the source was read to its end (or to --max-frames)
+  std::optional<std::string> broke_off;  // why it was not
   std::optional<GroundTruth> truth;
   std::vector<std::string> notes;  // what a person must know before trusting the figures
 };

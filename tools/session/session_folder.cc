@@ -9,24 +9,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "sequences/04/" and "." both have a name.
-std::string name_of(const fs::path& source) {
-  std::error_code error;
-  fs::path path = fs::canonical(source, error);
-  if (error) path = source;
-  if (!path.has_filename()) path = path.parent_path();
-  return path.stem().string();
-}
-
 fs::path unused_folder(const fs::path& source, std::optional<int> rays) {
   const std::string name =
-      fmt::format("session-{}{}", name_of(source), rays ? fmt::format("-{}rays", *rays) : "");
+      fmt::format("session-{}{}", source_name(source), rays ? fmt::format("-{}rays", *rays) : "");
   fs::path folder = name;
   for (int number = 2; fs::exists(folder); ++number) folder = fmt::format("{}-{}", name, number);
   return folder;
 }
 
 }  // namespace
+
+// "sequences/04/" and "." both have a name.
+std::string source_name(const fs::path& source) {
+  std::error_code error;
+  fs::path path = fs::canonical(source, error);
+  if (error) path = source;
+  if (!path.has_filename()) path = path.parent_path();
+  return path.stem().string();
+}
 
 Result<fs::path> claim_session_folder(const std::optional<fs::path>& output, const fs::path& source,
                                       std::optional<int> rays) {

@@ -62,6 +62,7 @@ std::string session_json(const Session& session, const SessionSummary& summary) 
   const SessionDescription& description = session.description;
   Json json = {{"sparsight", SPARSIGHT_VERSION},
                {"complete", session.complete},
+               {"broke_off", json_of(session.broke_off)},
                {"source", description.source.string()},
                {"profile", description.profile_name},
                {"rays", json_of(description.rays)},

@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "tools/configuration/profile.h"
+#include "tools/session/ply_writer.h"
+#include "tools/session/report.h"
 #include "tools/session/session_summary.h"
 
 namespace sparsight {
@@ -33,9 +35,11 @@ std::vector<TrajectoryPose> poses_as_tracked(const std::vector<FrameFigures>& fr
 
 }  // namespace
 
-SessionRecorder::SessionRecorder(std::filesystem::path folder, SessionDescription description)
+SessionRecorder::SessionRecorder(std::filesystem::path folder, SessionDescription description,
+                                 bool map)
     : folder_(std::move(folder)), journal_(folder_ / "frames.csv") {
   session_.description = std::move(description);
+  if (map) map_.emplace(VoxelMapConfig{});
   journal_.stream() << frames_csv_header();
 }
 
@@ -44,40 +48,51 @@ Result<void> SessionRecorder::begin() {
   return write_file(folder_ / "session.json", session_json(session_, {}));
 }
 
-bool SessionRecorder::add(const FrameRecord& record) {
+std::vector<Error> SessionRecorder::add(const FrameRecord& record) {
   session_.frames.push_back(figures_of(record));
   journal_.stream() << frames_csv_line(session_.frames.back());
   journal_.flush();
-  bool news = false;
-  for (const Error& fault : record.faults) news |= session_.faults.add(record.sequence, fault);
+  std::vector<Error> news;
+  for (const Error& fault : record.faults) {
+    if (session_.faults.add(record.sequence, fault)) news.push_back(fault);
+  }
   return news;
 }
 
 void SessionRecorder::add(const RetiredKeyframe& keyframe) {
   session_.keyframes.push_back(keyframe.sequence);
+  if (map_) map_->add(keyframe);
 }
 
 void SessionRecorder::end(std::vector<TrajectoryPose> trajectory,
-                          std::chrono::nanoseconds wall_time, bool complete) {
+                          std::chrono::nanoseconds wall_time) {
   session_.trajectory =
       trajectory.empty() ? poses_as_tracked(session_.frames) : std::move(trajectory);
   session_.wall_time = wall_time;
-  session_.complete = complete;
+  session_.complete = !session_.broke_off;
 }
 
 Result<void> SessionRecorder::write() {
+  if (map_) session_.map_points = map_->points().size();
   const SessionSummary summary = summarize(session_);
-  return write_file(folder_ / "trajectory.kitti", kitti_text(session_.trajectory))
-      .and_then([&] {
-        return write_file(folder_ / "trajectory.tum",
-                          format_tum(with_its_times(session_.trajectory)));
-      })
-      .and_then([&] {
-        return write_file(folder_ / "profile.toml", describe_profile(session_.description.config));
-      })
-      .and_then([&] { return journal_.commit(); })
-      .and_then(
-          [&] { return write_file(folder_ / "session.json", session_json(session_, summary)); });
+  const std::pair<const char*, std::string> files[] = {
+      {"trajectory.kitti", kitti_text(session_.trajectory)},
+      {"trajectory.tum", format_tum(with_its_times(session_.trajectory))},
+      {"profile.toml", describe_profile(session_.description.config)},
+      {"report.html", report_html(session_, summary)}};
+  for (const auto& [name, content] : files) {
+    if (auto written = write_file(folder_ / name, content); !written) return written;
+  }
+  return journal_.commit().and_then([&] { return write_map(); }).and_then([&] {
+    return write_file(folder_ / "session.json", session_json(session_, summary));
+  });
+}
+
+Result<void> SessionRecorder::write_map() {
+  if (map_) return write_ply(folder_ / "map.ply", map_->points());
+  std::error_code error;  // an earlier session's map would not be this one's
+  std::filesystem::remove(folder_ / "map.ply", error);
+  return {};
 }
 
 }  // namespace sparsight

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "slam/map/voxel_map.h"
 #include "tools/session/atomic_file.h"
 #include "tools/session/session.h"
 
@@ -14,24 +15,27 @@ namespace sparsight {
 // written at the end, each file appearing when it is whole and session.json last. Thread-bound.
 class SessionRecorder {
  public:
-  SessionRecorder(std::filesystem::path folder, SessionDescription description);
+  // Without `map` none is kept or written.
+  SessionRecorder(std::filesystem::path folder, SessionDescription description, bool map);
 
   // Marks a new folder as a session's, so that after a crash it may be replaced.
   Result<void> begin();
-  // True if the frame shows a fault of a kind not seen before.
-  bool add(const FrameRecord& record);
+  // Returns the frame's faults that are the first of their kind.
+  std::vector<Error> add(const FrameRecord& record);
   void add(const RetiredKeyframe& keyframe);
   // An empty trajectory (a run that broke off) stands for the poses as they were when tracked.
-  void end(std::vector<TrajectoryPose> trajectory, std::chrono::nanoseconds wall_time,
-           bool complete);
+  void end(std::vector<TrajectoryPose> trajectory, std::chrono::nanoseconds wall_time);
   Result<void> write();
 
   Session& session() { return session_; }
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
+  Result<void> write_map();
+
   std::filesystem::path folder_;
   Session session_;
+  std::optional<VoxelMap> map_;
   AtomicFile journal_;
 };
 

@@ -67,4 +67,17 @@ SessionSummary summarize(const Session& session) {
   return summary;
 }
 
+std::optional<Error> failure_of(const Session& session) {
+  const std::string source = session.description.source.string();
+  if (session.broke_off) return Error{ErrorCode::kMalformed, source + ": " + *session.broke_off};
+  const SessionSummary summary = summarize(session);
+  if (summary.frames == 0) return Error{ErrorCode::kNotFound, source + ": gave no frame"};
+  // The first frame counts as tracked without having been.
+  if (summary.frames > 1 && summary.tracked <= 1) {
+    return Error{ErrorCode::kMalformed,
+                 source + ": no frame could be tracked; report.html shows what was tried"};
+  }
+  return std::nullopt;
+}
+
 }  // namespace sparsight

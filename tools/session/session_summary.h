@@ -29,6 +29,10 @@ struct SessionSummary {
 
 SessionSummary summarize(const Session& session);
 
+// Why a session that was written is a failure all the same, if it is: it broke off, or nothing
+// could be tracked.
+std::optional<Error> failure_of(const Session& session);
+
 // The smallest value that at least `share` of them do not exceed; 0 of none.
 double percentile(std::vector<double> values, double share);
 

@@ -40,11 +40,12 @@ std::string timing_text(const SessionSummary& summary) {
 
 std::string session_text(const Session& session, const std::filesystem::path& folder) {
   const SessionSummary summary = summarize(session);
-  std::string text = fmt::format(
-      "frames    {} in {:.1f} s and {:.1f} m: {} tracked, {} predicted, {} keyframes{}\n",
-      summary.frames, summary.recorded_s, summary.path_length_m, summary.tracked, summary.predicted,
-      summary.keyframes, session.complete ? "" : "; stopped before the end");
+  std::string text =
+      fmt::format("frames    {} in {:.1f} s and {:.1f} m: {} tracked, {} predicted, {} keyframes\n",
+                  summary.frames, summary.recorded_s, summary.path_length_m, summary.tracked,
+                  summary.predicted, summary.keyframes);
   text += accuracy_text(session) + timing_text(summary) + faults_text(session.faults);
+  if (session.broke_off) text += fmt::format("note      {}\n", *session.broke_off);
   for (const std::string& note : session.notes) text += fmt::format("note      {}\n", note);
   return text + fmt::format("results   {}\n", folder.string());
 }

@@ -28,7 +28,9 @@ int replay(ReplayOptions options) {
     return kFailed;
   }
   if (!options.quiet) fmt::print("{}", session_text(result->session, result->folder));
-  return kDone;
+  if (!result->failure) return kDone;
+  fmt::print(stderr, "{}\n", result->failure->message);
+  return kFailed;
 }
 
 }  // namespace

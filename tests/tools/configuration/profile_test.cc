@@ -41,7 +41,6 @@ TEST(Profile, PaperIsTableOne) {
   EXPECT_EQ(paper.keyframes.max_age_s, 1.0);
   EXPECT_EQ(paper.window.size, 5);
   EXPECT_EQ(paper.points.bin_deg, 2.0);
-  EXPECT_EQ(paper.tracker.student_t_dof, 5.0);
 }
 
 TEST(Profile, MissingKeysKeepTheDefaults) {
@@ -72,15 +71,15 @@ TEST(Profile, IntegersServeWhereFloatsAreExpected) {
 }
 
 TEST(Profile, ValueOutOfRangeNamesFileLineFieldValueAndRange) {
-  EXPECT_EQ(error_of("[tracker]\n\nstudent_t_dof = -1\n"),
-            "my.toml:3: [tracker] student_t_dof = -1: must be between 0.1 and 1000");
+  EXPECT_EQ(error_of("[keyframes]\n\nmin_visible_ratio = -0.1\n"),
+            "my.toml:3: [keyframes] min_visible_ratio = -0.1: must be between 0 and 1");
   EXPECT_THAT(error_of("[points]\nbin_deg = nan\n"), HasSubstr("must be between"));
   EXPECT_THAT(error_of("[window]\nsize = 9223372036854775807\n"), HasSubstr("between 2 and 50"));
 }
 
 TEST(Profile, UnknownKeyNamesTheNearest) {
-  EXPECT_EQ(error_of("[tracker]\nstudent_dof = 5.0\n"),
-            "my.toml:2: [tracker] student_dof: unknown key; the nearest is student_t_dof");
+  EXPECT_EQ(error_of("[keyframes]\nmin_visible = 0.5\n"),
+            "my.toml:2: [keyframes] min_visible: unknown key; the nearest is min_visible_ratio");
   EXPECT_EQ(error_of("widnow = 5\n"), "my.toml:1: widnow: unknown key; the nearest is window");
 }
 
