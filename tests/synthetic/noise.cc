@@ -10,17 +10,22 @@ namespace sparsight::synthetic {
 namespace {
 
 // Sixteen directions, evenly spread.
-const std::array<Eigen::Vector2d, 16>& directions() {
-  static const auto kDirections = [] {
-    std::array<Eigen::Vector2d, 16> result;
-    for (std::size_t i = 0; i < result.size(); ++i) {
-      const double angle = 2.0 * M_PI * static_cast<double>(i) / 16.0;
-      result[i] = {std::cos(angle), std::sin(angle)};
-    }
-    return result;
-  }();
-  return kDirections;
+const std::array<Eigen::Vector2d, 16> kDirections = [] {
+  std::array<Eigen::Vector2d, 16> result;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const double angle = 2.0 * M_PI * static_cast<double>(i) / 16.0;
+    result[i] = {std::cos(angle), std::sin(angle)};
+  }
+  return result;
+}();
+
+// Without SSE 4.1, which the baseline build may not use, std::floor is a call.
+std::int64_t floor_of(double x) {
+  const auto truncated = static_cast<std::int64_t>(x);
+  return truncated - (static_cast<double>(truncated) > x ? 1 : 0);
 }
+
+double mix(double from, double to, double share) { return from + share * (to - from); }
 
 double fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
 
@@ -36,26 +41,33 @@ struct CellShare {
 };
 
 CellShare cells_below(double x, double width) {
-  const double low = std::floor(x - width / 2.0);
-  return {static_cast<std::int64_t>(low),
-          width > 0.0 ? std::clamp((x + width / 2.0 - low - 1.0) / width, 0.0, 1.0) : 0.0};
+  const std::int64_t low = floor_of(x - width / 2.0);
+  const double next = static_cast<double>(low) + 1.0;
+  return {low, width > 0.0 ? std::clamp((x + width / 2.0 - next) / width, 0.0, 1.0) : 0.0};
 }
 
 }  // namespace
 
 double gradient_noise(double u, double v, std::uint64_t seed) {
-  const double floor_u = std::floor(u);
-  const double floor_v = std::floor(v);
-  const auto corner = [&](int i, int j) {
-    const std::uint64_t bits =
-        hash(seed, static_cast<std::int64_t>(floor_u) + i, static_cast<std::int64_t>(floor_v) + j);
-    return directions()[bits & 15U].dot(Eigen::Vector2d(u - floor_u - i, v - floor_v - j));
+  // The lattice hash is one product a corner: a picture asks for some hundred million of them.
+  constexpr std::uint64_t kAlongU = 0x9e3779b97f4a7c15ULL;
+  constexpr std::uint64_t kAlongV = 0xc2b2ae3d27d4eb4fULL;
+  const std::int64_t cell_u = floor_of(u);
+  const std::int64_t cell_v = floor_of(v);
+  const double x = u - static_cast<double>(cell_u);
+  const double y = v - static_cast<double>(cell_v);
+  const std::uint64_t at = seed + static_cast<std::uint64_t>(cell_u) * kAlongU +
+                           static_cast<std::uint64_t>(cell_v) * kAlongV;
+  const auto corner = [](std::uint64_t key, double dx, double dy) {
+    const Eigen::Vector2d& g = kDirections[((key ^ (key >> 29U)) * 0xbf58476d1ce4e5b9ULL) >> 60U];
+    return g.x() * dx + g.y() * dy;
   };
-  const double a = fade(u - floor_u);
-  const double b = fade(v - floor_v);
-  const double low = std::lerp(corner(0, 0), corner(1, 0), a);
-  const double high = std::lerp(corner(0, 1), corner(1, 1), a);
-  return 1.4 * std::lerp(low, high, b);
+  const double a = fade(x);
+  const double b = fade(y);
+  const double low = mix(corner(at, x, y), corner(at + kAlongU, x - 1.0, y), a);
+  const double high =
+      mix(corner(at + kAlongV, x, y - 1.0), corner(at + kAlongU + kAlongV, x - 1.0, y - 1.0), a);
+  return 1.4 * mix(low, high, b);
 }
 
 double OctaveNoise::operator()(const Eigen::Vector2d& uv, const Footprint& footprint) const {
@@ -84,17 +96,17 @@ double cell_noise(const Eigen::Vector2d& uv, const Eigen::Vector2d& cell,
   const auto value = [&](int i, int j) {
     return 2.0 * unit_interval(hash(seed, u.first + i, v.first + j)) - 1.0;
   };
-  const double low = std::lerp(value(0, 0), value(1, 0), u.second_share);
-  const double high = std::lerp(value(0, 1), value(1, 1), u.second_share);
-  return contrast * std::lerp(low, high, v.second_share);
+  const double low = mix(value(0, 0), value(1, 0), u.second_share);
+  const double high = mix(value(0, 1), value(1, 1), u.second_share);
+  return contrast * mix(low, high, v.second_share);
 }
 
 double pulse_coverage(double x, double duty, double width) {
   const auto integral = [duty](double end) {
-    const double whole = std::floor(end);
+    const auto whole = static_cast<double>(floor_of(end));
     return whole * duty + std::min(end - whole, duty);
   };
-  if (width <= 1e-9) return x - std::floor(x) < duty ? 1.0 : 0.0;
+  if (width <= 1e-9) return x - static_cast<double>(floor_of(x)) < duty ? 1.0 : 0.0;
   return (integral(x + width / 2.0) - integral(x - width / 2.0)) / width;
 }
 
