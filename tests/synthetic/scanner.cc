@@ -49,7 +49,7 @@ Sweep spin(const World& world, const SpinningLidar& lidar, const TrajectoryFunct
   for (double stored = 0.0; stored < turn; stored += lidar.azimuth_step_rad) {
     const double azimuth = stored < turn / 2.0 ? stored : stored - turn;
     if (std::abs(azimuth) > lidar.azimuth_limit_rad) continue;
-    const double late_s = lidar.motion_compensated ? 0.0 : azimuth / turn * lidar.period_s;
+    const double late_s = lidar.motion_compensated ? 0.0 : -azimuth / turn * lidar.period_s;
     if (!lidar.motion_compensated) {
       snapshot.emplace(world, exposure_s + late_s);
       T = T_world_lidar(exposure_s + late_s);

@@ -13,8 +13,8 @@
 
 namespace sparsight::synthetic {
 
-// A rotating LiDAR that turns to the left and looks straight ahead in the middle of its turn, which
-// is the exposure: KITTI's arrangement.
+// A rotating LiDAR that turns to the right (as Velodyne's do, seen from above) and looks straight
+// ahead in the middle of its turn, which is the exposure: KITTI's arrangement.
 struct SpinningLidar {
   std::vector<double> elevations_rad;  // one per ring, top to bottom
   double azimuth_step_rad = 0.17 * std::numbers::pi / 180.0;

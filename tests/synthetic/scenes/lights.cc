@@ -33,7 +33,7 @@ double along(double t) {
 }
 
 constexpr double kStopped = 33.0;             // along(kStands)
-constexpr double kCrossing = kStopped + 7.5;  // x of the middle of the near lane across
+constexpr double kCrossing = kStopped + 10.0;  // x of the middle of the near lane across
 
 void add_blocks(Builder& builder, Random& random) {
   for (const double side : {-1.0, 1.0}) {
@@ -99,7 +99,7 @@ Scene make_lights(std::uint64_t seed) {
            9.0);
   scene.world.still = builder.finish();
   scene.world.movers = {crossing(kCrossing, 5.6, 5.0, 4.6, 1.6, random),
-                        crossing(kCrossing - 0.5, 7.2, 3.5, 9.0, 3.2, random),
+                        crossing(kCrossing - 0.5, 7.2, 3.5, 7.0, 2.9, random),
                         crossing(kCrossing + 3.2, 6.3, -6.0, 4.4, 1.5, random),
                         crossing(kCrossing + 3.4, 8.6, -4.0, 6.0, 2.4, random),
                         crossing(kCrossing - 0.3, 9.4, 6.0, 5.0, 2.0, random),
