@@ -37,8 +37,7 @@ bool is_one_of(std::string_view header, const std::vector<std::string_view>& nam
 }
 
 struct LibraryRule {
-  std::vector<std::string_view>
-      headers;              // as between the brackets; with a slash at the end, all below it
+  std::vector<std::string_view> headers;
   Names layers;             // where a .cc may include them
   bool in_headers = false;  // and a .h, too
   std::string_view remedy;
