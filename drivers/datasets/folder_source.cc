@@ -20,6 +20,7 @@ std::optional<SynchronizedFrame> FolderSource::next() {
   SynchronizedFrame frame;
   frame.sequence = next_++;
   frame.exposure = from.exposure;
+  frame.faults = from.faults;
   read_image(from, frame);
   read_scan(from, frame);
   return frame;
@@ -47,8 +48,11 @@ void FolderSource::read_image(const FolderFrame& from, SynchronizedFrame& frame)
 
 void FolderSource::read_scan(const FolderFrame& from, SynchronizedFrame& frame) const {
   frame.sweep.motion_compensated = index_.motion_compensated;
-  auto scan = read_file_bytes(from.scan).and_then(
-      [&](const std::string& bytes) { return parse_velodyne_scan(bytes, from.scan.string()); });
+  if (!from.sweep && !index_.motion_compensated) return;  // the index says why
+  auto scan = read_file_bytes(from.scan).and_then([&](const std::string& bytes) {
+    const bool text = from.scan.extension() == ".txt";
+    return (text ? parse_velodyne_text : parse_velodyne_scan)(bytes, from.scan.string());
+  });
   if (!scan) {
     frame.faults.push_back(std::move(scan.error()));
     return;
@@ -56,8 +60,13 @@ void FolderSource::read_scan(const FolderFrame& from, SynchronizedFrame& frame) 
   if (scan->refused > 0) {
     frame.faults.push_back(
         {ErrorCode::kOutOfRange,
-         fmt::format("{}: {} of {} points are not finite and were left out", from.scan.string(),
-                     scan->refused, scan->refused + scan->returns.size())});
+         fmt::format(
+             "{}: {} of {} points are not finite numbers of a LiDAR's range and were left out",
+             from.scan.string(), scan->refused, scan->refused + scan->returns.size())});
+  }
+  if (scan->returns.empty()) {
+    frame.faults.push_back(
+        {ErrorCode::kWrongSize, fmt::format("{}: a scan without returns", from.scan.string())});
   }
   std::vector<LidarReturn> returns = std::move(scan->returns);
   const std::size_t ring_count = assign_rings(returns);

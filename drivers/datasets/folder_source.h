@@ -14,7 +14,8 @@ struct FolderFrame {
   HostTime exposure;
   std::filesystem::path image;
   std::filesystem::path scan;
-  std::optional<SweepTiming> sweep;  // none: the scan is motion-compensated, or its time unknown
+  std::optional<SweepTiming> sweep;  // needed unless scans are motion-compensated
+  std::vector<Error> faults;         // why it is not there, for instance
 };
 
 // A data set as its layout describes it.

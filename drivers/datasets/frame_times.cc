@@ -11,9 +11,9 @@
 namespace sparsight {
 namespace {
 
-// Nanoseconds of a HostTime are 64 bits: 292 years either way.
-constexpr double kMaxSeconds = 9.2e9;
-constexpr int kMinYear = 1700;
+// So that the difference of any two fits the 64 bits of a HostTime (292 years).
+constexpr double kMaxSeconds = 4.5e9;
+constexpr int kMinYear = 1970;
 constexpr int kMaxYear = 2200;
 
 tl::unexpected<Error> malformed(const std::string& file, std::size_t line, std::string_view text,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -43,6 +44,16 @@ DecodedImage from_color(const cv::Mat& mat) {
   return image;
 }
 
+// Both formats end with a mark of their own. Decoders fill what a truncated file lacks with grey
+// (libjpeg), or complain to the terminal (libpng).
+bool is_truncated(std::string_view bytes) {
+  constexpr std::size_t kPadding = 1024;  // that some writers add after the end
+  const std::string_view tail = bytes.substr(bytes.size() - std::min(bytes.size(), kPadding));
+  if (bytes.starts_with("\x89PNG")) return tail.find("IEND") == std::string_view::npos;
+  if (bytes.starts_with("\xFF\xD8")) return tail.find("\xFF\xD9") == std::string_view::npos;
+  return false;
+}
+
 cv::Mat decode(std::string_view bytes) {
   // OpenCV asks for a mutable buffer, and does not write to it.
   const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
@@ -68,7 +79,7 @@ cv::Mat to_8_bits(const cv::Mat& mat) {
 }  // namespace
 
 Result<DecodedImage> decode_image(std::string_view bytes, const std::string& file) {
-  const cv::Mat stored = bytes.empty() ? cv::Mat() : decode(bytes);
+  const cv::Mat stored = bytes.empty() || is_truncated(bytes) ? cv::Mat() : decode(bytes);
   if (stored.empty()) {
     return fail(ErrorCode::kMalformed,
                 fmt::format("{}: not a readable PNG or JPEG image; it may be truncated", file));

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "drivers/datasets/file_bytes.h"
 #include "drivers/datasets/image_file.h"
 
@@ -31,20 +33,58 @@ Result<ImageFolder> find_image_folder(const fs::path& root, const std::string& p
                                             root.string(), camera.value_or(0), wanted, present));
 }
 
-Result<CameraIntrinsics> with_image_size(CameraIntrinsics intrinsics, const ImageFolder& images) {
+Result<ImageSize> image_size(const ImageFolder& images) {
+  constexpr std::size_t kEnough = 5;
+  std::map<ImageSize, std::size_t> votes;
+  std::size_t read = 0;
   Error last{};
   for (const auto& [number, file] : images.images) {
     auto image = read_file_bytes(file).and_then(
         [&](const std::string& bytes) { return decode_image(bytes, file.string()); });
     if (image) {
-      intrinsics.width = image->grey.width;
-      intrinsics.height = image->grey.height;
-      return intrinsics;
+      ++votes[{image->grey.width, image->grey.height}];
+      if (++read == kEnough) break;
+    } else {
+      last = std::move(image.error());
     }
-    last = std::move(image.error());
   }
-  return fail(last.code, fmt::format("{}: none of the {} images can be read; the last one: {}",
-                                     images.folder.string(), images.images.size(), last.message));
+  if (votes.empty()) {
+    return fail(last.code, fmt::format("{}: none of the {} images can be read; the last one: {}",
+                                       images.folder.string(), images.images.size(), last.message));
+  }
+  return std::max_element(votes.begin(), votes.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+Result<CameraIntrinsics> with_image_size(CameraIntrinsics intrinsics, ImageSize size,
+                                         const std::string& calibration_file) {
+  intrinsics.width = size.width;
+  intrinsics.height = size.height;
+  if (intrinsics.cx < 0 || intrinsics.cx > size.width || intrinsics.cy < 0 ||
+      intrinsics.cy > size.height) {
+    return fail(
+        ErrorCode::kOutOfRange,
+        fmt::format("{}: the principal point ({:.1f}, {:.1f}) lies outside the images of "
+                    "{} x {} pixels; this is another camera's calibration, or the images "
+                    "were resized",
+                    calibration_file, intrinsics.cx, intrinsics.cy, size.width, size.height));
+  }
+  return intrinsics;
+}
+
+Result<std::size_t> frames_with_times(const ImageFolder& images,
+                                      const std::map<std::uint64_t, fs::path>& scans,
+                                      std::size_t times, const fs::path& times_file) {
+  const auto& [last_image, last_file] = *images.images.rbegin();
+  if (last_image >= times) {
+    return fail(ErrorCode::kWrongSize,
+                fmt::format("{}: {} lines, but {} is image {}; every image needs its line with a "
+                            "time",
+                            times_file.string(), times, last_file.string(), last_image));
+  }
+  const std::uint64_t last_scan = scans.empty() ? 0 : scans.rbegin()->first;
+  return std::min(std::max(last_image, last_scan) + 1, std::uint64_t{times});
 }
 
 fs::path numbered_file(const std::map<std::uint64_t, fs::path>& files, const fs::path& folder,

@@ -2,62 +2,66 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "drivers/datasets/calibration_text.h"
 #include "drivers/datasets/file_bytes.h"
 #include "drivers/datasets/frame_times.h"
 #include "drivers/datasets/image_folder.h"
+#include "drivers/datasets/kitti_raw_calibration.h"
+#include "drivers/datasets/sweep_folder.h"
+#include "drivers/datasets/trigger_time.h"
 
 namespace sparsight {
 namespace fs = std::filesystem;
 namespace {
 
-using Timestamps = std::vector<std::optional<HostTime>>;
-
-Result<CalibrationText> read_text(const fs::path& file) {
-  return read_file_bytes(file).and_then(
-      [&](const std::string& bytes) { return CalibrationText::parse(bytes, file.string()); });
-}
-
-Result<RigCalibration> read_calibration(const fs::path& folder, int camera) {
-  const auto cameras = read_text(folder / "calib_cam_to_cam.txt");
-  if (!cameras) return tl::unexpected(cameras.error());
-  const auto lidar = read_text(folder / "calib_velo_to_cam.txt");
-  if (!lidar) return tl::unexpected(lidar.error());
-  const auto projection = rectified_camera(*cameras, fmt::format("P_rect_{:02}", camera));
-  if (!projection) return tl::unexpected(projection.error());
-  const auto R_rect = cameras->rotation("R_rect_00");
-  if (!R_rect) return tl::unexpected(R_rect.error());
-  const auto R = lidar->rotation("R");
-  if (!R) return tl::unexpected(R.error());
-  const auto t = lidar->numbers("T", 3);
-  if (!t) return tl::unexpected(t.error());
-  Eigen::Isometry3d T_camera_0_lidar = Eigen::Isometry3d::Identity();
-  T_camera_0_lidar.linear() = *R;
-  T_camera_0_lidar.translation() = Eigen::Map<const Eigen::Vector3d>(t->data());
-  return RigCalibration{projection->intrinsics,
-                        projection->T_camera_reference * *R_rect * T_camera_0_lidar};
-}
-
-Result<Timestamps> read_timestamps(const fs::path& file) {
-  return read_file_bytes(file).and_then(
+Result<std::vector<HostTime>> read_arrivals(const fs::path& file) {
+  const auto stamps = read_file_bytes(file).and_then(
       [&](const std::string& bytes) { return parse_timestamps_utc(bytes, file.string()); });
-}
-
-Result<std::vector<HostTime>> read_exposures(const fs::path& file) {
-  const auto stamps = read_timestamps(file);
   if (!stamps) return tl::unexpected(stamps.error());
   std::vector<HostTime> times;
   for (const auto& stamp : *stamps) {
     if (!stamp) {
       return fail(ErrorCode::kMalformed,
-                  fmt::format("{}:{}: empty line; every image has an exposure time", file.string(),
-                              times.size() + 1));
+                  fmt::format("{}:{}: empty line; every image needs its line with a time",
+                              file.string(), times.size() + 1));
     }
     times.push_back(*stamp);
   }
   return require_increasing(std::move(times), file.string());
+}
+
+// The scan of each image: the one with its number, or in drives that are not synchronised
+// (..._extract) the one next in time.
+std::vector<std::uint64_t> scan_of_each_image(const fs::path& drive, const SweepFolder& sweeps,
+                                              const std::vector<HostTime>& arrivals) {
+  const bool unsynchronised =
+      fs::absolute(drive).lexically_normal().string().find("_extract") != std::string::npos;
+  std::vector<std::uint64_t> scan;
+  for (const HostTime arrival : arrivals) {
+    const std::uint64_t same_number = scan.size();
+    scan.push_back(unsynchronised ? sweeps.nearest(arrival).value_or(UINT64_MAX) : same_number);
+  }
+  return scan;
+}
+
+FolderFrame frame_of(std::size_t number, HostTime exposure, std::uint64_t scan,
+                     const ImageFolder& images, const SweepFolder& sweeps) {
+  FolderFrame frame;
+  frame.exposure = exposure;
+  frame.image = numbered_file(images.images, images.folder, number, ".png");
+  frame.scan = numbered_file(sweeps.scans, sweeps.folder / "data", scan, ".bin");
+  if (!sweeps.scans.contains(scan)) {
+    frame.faults.push_back({ErrorCode::kNotFound, fmt::format("{}: no such file; the frame has no "
+                                                              "depth of its own",
+                                                              frame.scan.string())});
+    return frame;
+  }
+  auto timing = sweeps.timing(scan, exposure);
+  if (timing) {
+    frame.sweep = *timing;
+  } else {
+    frame.faults.push_back(std::move(timing.error()));
+  }
+  return frame;
 }
 
 }  // namespace
@@ -65,38 +69,32 @@ Result<std::vector<HostTime>> read_exposures(const fs::path& file) {
 bool is_kitti_raw(const fs::path& folder) {
   std::error_code error;
   return fs::is_directory(folder / "velodyne_points", error) ||
-         fs::is_directory(folder / "image_00", error);
+         fs::is_directory(folder / "image_00", error) ||
+         fs::is_directory(folder / "image_02", error);
 }
 
 Result<FolderIndex> index_kitti_raw(const fs::path& folder, std::optional<int> camera) {
   const auto images = find_image_folder(folder, "image_0", "data", camera);
   if (!images) return tl::unexpected(images.error());
-  auto calibration = read_calibration(folder / "..", images->camera);
+  const auto calibration = read_kitti_raw_calibration(folder, *images);
   if (!calibration) return tl::unexpected(calibration.error());
-  const auto intrinsics = with_image_size(calibration->camera, *images);
-  if (!intrinsics) return tl::unexpected(intrinsics.error());
-  calibration->camera = *intrinsics;
+  const fs::path times_file = images->folder.parent_path() / "timestamps.txt";
+  const auto arrivals = read_arrivals(times_file);
+  if (!arrivals) return tl::unexpected(arrivals.error());
+  const auto sweeps = read_sweep_folder(folder / "velodyne_points");
+  if (!sweeps) return tl::unexpected(sweeps.error());
+  const auto count = frames_with_times(*images, sweeps->scans, arrivals->size(), times_file);
+  if (!count) return tl::unexpected(count.error());
 
-  const fs::path times_file = images->folder / ".." / "timestamps.txt";
-  const auto times = read_exposures(times_file);
-  if (!times) return tl::unexpected(times.error());
-  const auto starts = read_timestamps(folder / "velodyne_points" / "timestamps_start.txt");
-  if (!starts) return tl::unexpected(starts.error());
-  const auto ends = read_timestamps(folder / "velodyne_points" / "timestamps_end.txt");
-  if (!ends) return tl::unexpected(ends.error());
-
-  const fs::path scan_folder = folder / "velodyne_points" / "data";
-  const auto scans = list_numbered_files(scan_folder, {".bin"});
-  const std::uint64_t count =
-      std::min<std::uint64_t>(images->images.rbegin()->first + 1, times->size());
+  const std::vector<std::uint64_t> scan = scan_of_each_image(folder, *sweeps, *arrivals);
+  std::vector<std::optional<HostTime>> triggers;
+  for (const std::uint64_t number : scan) triggers.push_back(sweeps->trigger(number));
+  const auto exposures =
+      require_increasing(exposure_times(*arrivals, triggers), times_file.string());
+  if (!exposures) return tl::unexpected(exposures.error());
   FolderIndex index{*calibration, {}, false};
-  for (std::uint64_t i = 0; i < count; ++i) {
-    FolderFrame frame{(*times)[i], numbered_file(images->images, images->folder, i, ".png"),
-                      numbered_file(scans, scan_folder, i, ".bin"), std::nullopt};
-    if (i < starts->size() && i < ends->size() && (*starts)[i] && (*ends)[i]) {
-      frame.sweep = SweepTiming{*(*starts)[i], *(*ends)[i]};
-    }
-    index.frames.push_back(std::move(frame));
+  for (std::size_t i = 0; i < *count; ++i) {
+    index.frames.push_back(frame_of(i, (*exposures)[i], scan[i], *images, *sweeps));
   }
   return index;
 }

@@ -20,4 +20,7 @@ struct StoredScan {
 // `file` is for error messages.
 Result<StoredScan> parse_velodyne_scan(std::string_view bytes, const std::string& file);
 
+// The scans of KITTI's unsynchronised drives: the same four numbers in text, one point a line.
+Result<StoredScan> parse_velodyne_text(std::string_view text, const std::string& file);
+
 }  // namespace sparsight

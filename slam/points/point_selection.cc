@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "slam/points/surface_slope.h"
 #include "slam/points/visibility.h"
 
 namespace sparsight {
@@ -68,11 +69,13 @@ std::vector<SelectedPoint> select_points(const std::vector<CameraReturn>& return
     if (gradient2 > candidate.gradient2) candidate = {.index = i, .gradient2 = gradient2};
   }
 
+  const SurfaceSlopes slopes(returns, camera);
   std::vector<SelectedPoint> points;
   for (const Candidate& candidate : best) {
     if (candidate.gradient2 < 0) continue;
     const CameraReturn& r = returns[candidate.index];
     points.push_back({.p_camera = r.p_camera, .pixel = r.pixel});
+    if (config.surface_slope) points.back().inverse_depth_slope = slopes.at(candidate.index);
   }
   return points;
 }

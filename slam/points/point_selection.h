@@ -16,6 +16,8 @@ struct PointSelectionConfig {
   double max_depth_m = 120.0;
   bool reject_depth_edges = true;
   bool reject_hidden = true;
+  // Gives each pixel of a patch the depth of the surface there, not that of the centre.
+  bool surface_slope = false;
 };
 
 // Of the returns in each bin of the sphere around the camera the one with the largest image

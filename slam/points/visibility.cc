@@ -14,8 +14,8 @@ constexpr float kRangeNoise = 0.1F;  // metres
 // Farther apart than this, two firings of a ring are not neighbours: something did not return.
 constexpr float kNeighborCosine = 0.99985F;  // 1 degree
 
-constexpr double kCellRad = 0.25 * M_PI / 180.0;  // hidden within one to two cells
-constexpr float kHiddenShare = 0.75F;             // nearer than this share of the depth
+constexpr double kCellRad = 0.5 * M_PI / 180.0;  // hidden within one to two cells
+constexpr float kHiddenShare = 0.85F;            // nearer than this share of the depth
 
 bool jump_between(const CameraReturn& a, const CameraReturn& b) {
   const float range_a = a.p_camera.norm();

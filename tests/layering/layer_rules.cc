@@ -53,8 +53,8 @@ const std::vector<LibraryRule> kLibraryRules = {
     {{"CLI/"}, {"tools"}, true, "the command line belongs to tools"},
     {{"toml++/", "toml.hpp", "nlohmann/"},
      {"tools"},
-     false,
-     "one place parses files, in .cc files of tools; objects take values"},
+     true,
+     "one place parses files, and it is in tools; objects take values"},
 };
 
 }  // namespace

@@ -24,6 +24,7 @@ void visit_fields(Visitor& profile, PointSelectionConfig& points) {
   profile.field("max_depth_m", points.max_depth_m, {1.0, 1000.0});
   profile.field("reject_depth_edges", points.reject_depth_edges);
   profile.field("reject_hidden", points.reject_hidden);
+  profile.field("surface_slope", points.surface_slope);
 }
 
 template <typename Visitor>

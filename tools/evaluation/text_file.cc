@@ -1,13 +1,10 @@
 #include "tools/evaluation/text_file.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <memory>
 #include <sstream>
 #include <system_error>
 
@@ -32,26 +29,6 @@ Result<std::string> read_text_file(const std::filesystem::path& file) {
                 fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
   }
   return std::move(text).str();
-}
-
-Result<void> write_text_file(const std::filesystem::path& file, std::string_view text) {
-  const std::string partial = file.string() + ".partial";
-  const auto refuse = [&] {
-    const std::string why = std::strerror(errno);
-    std::remove(partial.c_str());
-    return fail(ErrorCode::kUnreadable,
-                fmt::format("{}: cannot be written: {}", file.string(), why));
-  };
-  std::FILE* stream = std::fopen(partial.c_str(), "wb");
-  if (stream == nullptr) {
-    return refuse();
-  }
-  const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size() &&
-                       std::fflush(stream) == 0 && ::fsync(::fileno(stream)) == 0;
-  if (std::fclose(stream) != 0 || !written || std::rename(partial.c_str(), file.c_str()) != 0) {
-    return refuse();
-  }
-  return {};
 }
 
 }  // namespace sparsight

@@ -24,6 +24,16 @@ struct EvaluateArguments {
   bool json = false;
 };
 
+// CLI::Range lets "nan" through.
+CLI::Validator positive_number() {
+  return {[](const std::string& text) {
+            double value = 0.0;
+            const bool valid = CLI::detail::lexical_cast(text, value) && value > 0.0 && value < 1e9;
+            return valid ? std::string() : text + " is not a length in metres above 0";
+          },
+          "> 0"};
+}
+
 EvaluationFiles files_of(const EvaluateArguments& arguments) {
   EvaluationFiles files{.estimate = arguments.estimate, .truth = arguments.truth};
   if (!arguments.times.empty()) {
@@ -87,7 +97,7 @@ void add_evaluate(CLI::App& app, int& exit_code) {
                    "Segment lengths in metres; 10,20,30,40,50 for short drives")
       ->delimiter(',')
       ->allow_extra_args(false)  // or it would take ESTIMATE for a length
-      ->check(CLI::Range(1e-3, 1e9).description("> 0"))
+      ->check(positive_number())
       ->capture_default_str();
   command->add_option("--step", arguments->step_frames, "Frames between the starts of segments")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
