@@ -21,9 +21,10 @@ double nice_step(double length, int most, bool whole_numbers) {
 // An interval of no length cannot be divided.
 Interval with_some_length(Interval range) {
   if (range.empty()) return {0.0, 1.0};
-  const double least = 1e-6 * std::max(1.0, std::abs(range.middle()));
+  const double magnitude = std::max(std::abs(range.min), std::abs(range.max));
+  const double least = std::max(1e-9 * magnitude, 1e-12);
   if (range.length() > least) return range;
-  if (range.min >= 0.0 && range.max <= 1e-6) return {0.0, 1.0};
+  if (range.min >= 0.0 && range.max <= least) return {0.0, 1.0};
   const double half = 0.5 * std::max(std::abs(range.middle()), 1.0);
   return {range.middle() - half, range.middle() + half};
 }

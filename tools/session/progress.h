@@ -10,6 +10,15 @@
 
 namespace sparsight {
 
+struct ProgressFigures {
+  std::size_t frames = 0;
+  std::optional<std::size_t> total_frames;
+  double wall_s = 0.0;
+  double recorded_s = 0.0;
+};
+
+std::string progress_text(const ProgressFigures& figures, const char* status);
+
 // Progress of a replay for a person: one line that is rewritten on a terminal, now and then a line
 // elsewhere, nothing if quiet. Thread-bound.
 class Progress {
@@ -27,14 +36,10 @@ class Progress {
   void end();
 
  private:
-  std::string line(std::chrono::steady_clock::time_point now, const char* status) const;
-
   std::FILE* stream_;
   Style style_;
-  std::optional<std::size_t> total_frames_;
-  std::size_t frames_ = 0;
+  ProgressFigures figures_;
   std::optional<HostTime> first_exposure_;
-  HostTime last_exposure_;
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point last_shown_;
   bool line_open_ = false;

@@ -45,7 +45,6 @@ std::string session_text(const Session& session, const std::filesystem::path& fo
                   summary.frames, summary.recorded_s, summary.path_length_m, summary.tracked,
                   summary.predicted, summary.keyframes);
   text += accuracy_text(session) + timing_text(summary) + faults_text(session.faults);
-  if (session.broke_off) text += fmt::format("note      {}\n", *session.broke_off);
   for (const std::string& note : session.notes) text += fmt::format("note      {}\n", note);
   return text + fmt::format("results   {}\n", folder.string());
 }
