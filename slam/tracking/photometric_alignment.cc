@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "slam/tracking/robust_model.h"
+
 namespace sparsight {
 namespace {
 
@@ -79,7 +81,7 @@ class LevelAlignment {
   bool try_step(Alignment& at, const Vector8d& step) {
     const Alignment to = stepped(at, step);
     evaluate(to, space_.candidate);
-    const double cost = robust_cost(space_.candidate, photometry_.student_t_dof, at.sigma_grey);
+    const double cost = robust_cost(space_.candidate, photometry_, at.sigma_grey);
     if (!(cost < at.cost) || visible_share(patches_, space_.candidate) < kLeastVisibleShare) {
       return false;
     }
@@ -95,8 +97,8 @@ class LevelAlignment {
 
   // The scale is estimated in each iteration, after eq. (5).
   Alignment measured(Alignment at) const {
-    at.sigma_grey = estimate_sigma(space_.current, photometry_.student_t_dof, at.sigma_grey);
-    at.cost = robust_cost(space_.current, photometry_.student_t_dof, at.sigma_grey);
+    at.sigma_grey = estimate_sigma(space_.current, photometry_, at.sigma_grey);
+    at.cost = robust_cost(space_.current, photometry_, at.sigma_grey);
     at.visible_share = visible_share(patches_, space_.current);
     return at;
   }
@@ -148,7 +150,7 @@ Alignment assess(const PatchSet& patches, const GreyImage& image, const CameraMo
 
 NormalEquations normal_equations(const PatchSet& patches, const Linearization& linearization,
                                  const Alignment& at, const PhotometryConfig& photometry) {
-  NormalEquations n = accumulate(patches, linearization, photometry.student_t_dof, at.sigma_grey);
+  NormalEquations n = accumulate(patches, linearization, photometry, at.sigma_grey);
   if (photometry.affine_brightness) add_brightness_prior(n, at);
   return n;
 }

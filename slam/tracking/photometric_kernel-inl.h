@@ -189,13 +189,13 @@ void linearize_entries(const PatchSet& patches, const ProjectionParameters& p, L
 }
 
 // w(r) of eq. (5) times the entry's own weight.
-HWY_INLINE VF total_weight(const Linearization& l, std::size_t at, VF residual, float dof,
+HWY_INLINE VF total_weight(const float* weights, std::size_t at, VF residual, float dof,
                            float inverse_sigma2) {
   const F f;
   const VF r2 = hn::Mul(residual, residual);
   const VF robust =
       hn::Div(hn::Set(f, dof + 1.0F), hn::MulAdd(r2, hn::Set(f, inverse_sigma2), hn::Set(f, dof)));
-  return hn::Mul(robust, hn::LoadU(f, l.weight.data() + at));
+  return hn::Mul(robust, hn::LoadU(f, weights + at));
 }
 
 void weighted_square_sums(const Linearization& l, float dof, float inverse_sigma2,
@@ -207,7 +207,7 @@ void weighted_square_sums(const Linearization& l, float dof, float inverse_sigma
     VF weight_sum = hn::Zero(f);
     for (std::size_t at = lane; at < l.residual.size(); at += kSumLanes) {
       const VF r = hn::LoadU(f, l.residual.data() + at);
-      const VF w = total_weight(l, at, r, dof, inverse_sigma2);
+      const VF w = total_weight(l.weight.data(), at, r, dof, inverse_sigma2);
       square_sum = hn::MulAdd(w, hn::Mul(r, r), square_sum);
       weight_sum = hn::Add(weight_sum, hn::LoadU(f, l.weight.data() + at));
     }
@@ -257,12 +257,13 @@ void log_likelihood_sums(const Linearization& l, float scale, LaneSums& costs, L
 }
 
 // One block into the 44 running sums. Rows 6 and 7 are d_r / d_gain = -I_m and d_r / d_offset = -1.
-HWY_INLINE void accumulate_block(const PatchSet& patches, const Linearization& l, std::size_t at,
-                                 float dof, float inverse_sigma2, VF* HWY_RESTRICT sums) {
+HWY_INLINE void accumulate_block(const PatchSet& patches, const Linearization& l,
+                                 const float* weights, std::size_t at, float dof,
+                                 float inverse_sigma2, VF* HWY_RESTRICT sums) {
   const F f;
   constexpr int kSize = NormalEquations::kSize;
   const VF r = hn::LoadU(f, l.residual.data() + at);
-  const VF w = total_weight(l, at, r, dof, inverse_sigma2);
+  const VF w = total_weight(weights, at, r, dof, inverse_sigma2);
   VF J[kSize];
   for (int k = 0; k < 6; ++k) J[k] = hn::LoadU(f, l.J[k].data() + at);
   J[6] = hn::Neg(hn::LoadU(f, patches.intensity.data() + at));
@@ -280,15 +281,15 @@ HWY_INLINE void accumulate_block(const PatchSet& patches, const Linearization& l
   }
 }
 
-void normal_equation_sums(const PatchSet& patches, const Linearization& l, float dof,
-                          float inverse_sigma2, NormalSums& out) {
+void normal_equation_sums(const PatchSet& patches, const Linearization& l, const float* weights,
+                          float dof, float inverse_sigma2, NormalSums& out) {
   const F f;
   const std::size_t step = hn::Lanes(f);
   for (std::size_t lane = 0; lane < kSumLanes; lane += step) {
     VF sums[kNormalSums];
     for (VF& sum : sums) sum = hn::Zero(f);
     for (std::size_t at = lane; at < l.residual.size(); at += kSumLanes) {
-      accumulate_block(patches, l, at, dof, inverse_sigma2, sums);
+      accumulate_block(patches, l, weights, at, dof, inverse_sigma2, sums);
     }
     for (std::size_t k = 0; k < kNormalSums; ++k) hn::StoreU(sums[k], f, out[k].data() + lane);
   }

@@ -52,6 +52,18 @@ ProjectionParameters projection_parameters(const GreyImage& image, const CameraM
   return p;
 }
 
+NormalEquations normal_equations_of(const NormalSums& sums) {
+  NormalEquations result;
+  std::size_t next = 0;
+  for (int row = 0; row < NormalEquations::kSize; ++row) {
+    for (int column = row; column < NormalEquations::kSize; ++column) {
+      result.H(row, column) = result.H(column, row) = total(sums[next++]);
+    }
+  }
+  for (int row = 0; row < NormalEquations::kSize; ++row) result.b(row) = total(sums[next++]);
+  return result;
+}
+
 }  // namespace
 
 void Linearization::resize(std::size_t entries) {
@@ -113,17 +125,18 @@ NormalEquations accumulate(const PatchSet& patches, const Linearization& lineari
                            double student_t_dof, double sigma) {
   NormalSums sums;
   HWY_DYNAMIC_DISPATCH(normal_equation_sums)
-  (patches, linearization, static_cast<float>(student_t_dof),
+  (patches, linearization, linearization.weight.data(), static_cast<float>(student_t_dof),
    static_cast<float>(1.0 / (sigma * sigma)), sums);
-  NormalEquations result;
-  std::size_t next = 0;
-  for (int row = 0; row < NormalEquations::kSize; ++row) {
-    for (int column = row; column < NormalEquations::kSize; ++column) {
-      result.H(row, column) = result.H(column, row) = total(sums[next++]);
-    }
-  }
-  for (int row = 0; row < NormalEquations::kSize; ++row) result.b(row) = total(sums[next++]);
-  return result;
+  return normal_equations_of(sums);
+}
+
+NormalEquations accumulate_weighted(const PatchSet& patches, const Linearization& linearization,
+                                    const std::vector<float>& weights) {
+  constexpr float kGaussian = 1e9F;  // degrees of freedom at which eq. (5) is 1
+  NormalSums sums;
+  HWY_DYNAMIC_DISPATCH(normal_equation_sums)
+  (patches, linearization, weights.data(), kGaussian, 0.0F, sums);
+  return normal_equations_of(sums);
 }
 
 }  // namespace sparsight

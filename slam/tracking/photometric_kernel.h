@@ -60,4 +60,8 @@ double visible_share(const PatchSet& patches, const Linearization& linearization
 NormalEquations accumulate(const PatchSet& patches, const Linearization& linearization,
                            double student_t_dof, double sigma);
 
+// The same with the given weights, one per entry.
+NormalEquations accumulate_weighted(const PatchSet& patches, const Linearization& linearization,
+                                    const std::vector<float>& weights);
+
 }  // namespace sparsight

@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include "slam/tracking/robust_model.h"
+
 namespace sparsight {
 namespace {
 
@@ -38,8 +40,7 @@ PairTerm pair_term(const Keyframe& host, const Keyframe& target, const CameraMod
 double energy_at(const PairTerm& term, const Linearization& linearization,
                  const PhotometryConfig& photometry) {
   const double sigma = term.at.sigma_grey;
-  return term.pixels * robust_cost(linearization, photometry.student_t_dof, sigma) /
-         (sigma * sigma);
+  return term.pixels * robust_cost(linearization, photometry, sigma) / (sigma * sigma);
 }
 
 }  // namespace sparsight
