@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 #include "slam/tracking/patch_correlation.h"
 #include "slam/tracking/starting_motions.h"
@@ -11,8 +10,14 @@
 namespace sparsight {
 namespace {
 
-// After the search at the coarsest level, so many of the best are followed to the finest.
-constexpr std::size_t kFollowed = 3;
+// The search ranks the starts by so many patches of the coarsest level, takes the most promising to
+// that level's minimum, and follows to the finest those that lead to different places and are not
+// clearly worse than the best.
+constexpr std::size_t kRankedPatches = 100;
+constexpr std::size_t kExamined = 6;
+constexpr int kFollowed = 3;
+constexpr double kSamePlacePx = 2.0;  // at the coarsest level
+constexpr double kHopeless = 0.1;     // of correlation
 
 Alignment start_at(const Eigen::Isometry3d& T_keyframe_camera, const Brightness& brightness) {
   Alignment at;
@@ -20,6 +25,33 @@ Alignment start_at(const Eigen::Isometry3d& T_keyframe_camera, const Brightness&
   at.brightness = brightness;
   return at;
 }
+
+// Poses that were followed already.
+class VisitedPlaces {
+ public:
+  VisitedPlaces(const CameraModel& camera, double mean_inverse_depth)
+      : focal_px_(camera.intrinsics().fx), mean_inverse_depth_(mean_inverse_depth) {}
+
+  // False if the pose is one of them.
+  bool add(const Eigen::Isometry3d& T_camera_keyframe) {
+    for (const Eigen::Isometry3d& place : places_) {
+      if (distance_px(place, T_camera_keyframe) < kSamePlacePx) return false;
+    }
+    places_.push_back(T_camera_keyframe);
+    return true;
+  }
+
+ private:
+  // Upper bound of how far apart the two see a point at mean depth.
+  double distance_px(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const {
+    const Vector6d d = log_se3(a * b.inverse());
+    return focal_px_ * (d.head<3>().norm() + d.tail<3>().norm() * mean_inverse_depth_);
+  }
+
+  double focal_px_;
+  double mean_inverse_depth_;
+  std::vector<Eigen::Isometry3d> places_;
+};
 
 }  // namespace
 
@@ -68,28 +100,43 @@ TrackingResult Tracker::verdict(const Keyframe& keyframe, const Alignment& at,
   return result;
 }
 
-TrackingResult Tracker::search(const Keyframe& keyframe, const ImagePyramid& image,
-                               const TrackingStart& start, int coarsest) {
+std::vector<RankedStart> Tracker::ranked_starts(const Keyframe& keyframe, const ImagePyramid& image,
+                                                const TrackingStart& start, int coarsest) {
+  const auto level = static_cast<std::size_t>(coarsest);
+  std::vector<Alignment> starts;
   const double mean_depth_m = 1.0 / std::max(keyframe.mean_inverse_depth, 1e-3);
-  std::vector<std::pair<double, Alignment>> coarse;  // by disagreement
-  const PatchSet& patches = keyframe.patches[static_cast<std::size_t>(coarsest)];
   for (const Eigen::Isometry3d& T_keyframe_camera :
        starting_motions(start.T_keyframe_previous, start.T_keyframe_predicted, mean_depth_m)) {
-    const Alignment at =
-        refine(keyframe, image, start_at(T_keyframe_camera, start.brightness), coarsest, coarsest);
-    const PatchAgreement agreement = patch_agreement(patches, workspace_.current, at.brightness);
-    if (agreement.visible_patches < config_.min_points) continue;
-    coarse.emplace_back(-agreement.median_correlation, at);
+    starts.push_back(start_at(T_keyframe_camera, start.brightness));
   }
-  std::stable_sort(coarse.begin(), coarse.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  const PatchSet& patches = keyframe.patches[level];
+  const PatchSet sample = thinned(patches, kRankedPatches);
+  const double share = static_cast<double>(sample.patches) /
+                       static_cast<double>(std::max<std::size_t>(1, patches.patches));
+  return rank_starts(starts, sample, image.level(coarsest), cameras_[level],
+                     keyframe.mean_inverse_depth, share * config_.min_points, photometry_,
+                     workspace_);
+}
+
+TrackingResult Tracker::search(const Keyframe& keyframe, const ImagePyramid& image,
+                               const TrackingStart& start, int coarsest,
+                               const TrackingResult& direct) {
+  const std::vector<RankedStart> ranked = ranked_starts(keyframe, image, start, coarsest);
+  // Many starts meet in one place, most often where the direct attempt has ended.
+  VisitedPlaces places(cameras_[static_cast<std::size_t>(coarsest)], keyframe.mean_inverse_depth);
+  if (direct.ok()) places.add(direct.T_keyframe_camera.inverse());
   TrackingResult best;
-  for (std::size_t i = 0; i < std::min(coarse.size(), kFollowed); ++i) {
-    const Alignment at = refine(keyframe, image, coarse[i].second, coarsest - 1, 0);
-    const TrackingResult result = verdict(keyframe, at, coarsest);
+  int followed = 0;
+  for (std::size_t i = 0; i < std::min(ranked.size(), kExamined) && followed < kFollowed; ++i) {
+    if (ranked[i].correlation < ranked.front().correlation - kHopeless) break;
+    const Alignment coarse = refine(keyframe, image, ranked[i].at, coarsest, coarsest);
+    if (!places.add(coarse.T_camera_keyframe)) continue;
+    ++followed;
+    const TrackingResult result =
+        verdict(keyframe, refine(keyframe, image, coarse, coarsest - 1, 0), coarsest);
     if (result.ok() >= best.ok() && result.correlation > best.correlation) best = result;
   }
-  best.attempts = static_cast<int>(coarse.size());
+  best.attempts = static_cast<int>(ranked.size());
   return best;
 }
 
@@ -109,7 +156,7 @@ TrackingResult Tracker::track(const Keyframe& keyframe, const ImagePyramid& imag
   result.attempts = 1;
   if (!config_.try_other_starts || (known && result.ok())) return result;
 
-  TrackingResult searched = search(keyframe, image, start, levels - 1);
+  TrackingResult searched = search(keyframe, image, start, levels - 1, result);
   searched.attempts += result.attempts;
   return searched.ok() >= result.ok() && searched.correlation > result.correlation ? searched
                                                                                    : result;

@@ -9,6 +9,7 @@
 #include "slam/geometry/se3.h"
 #include "slam/keyframe.h"
 #include "slam/tracking/photometric_alignment.h"
+#include "slam/tracking/start_ranking.h"
 
 namespace sparsight {
 
@@ -61,8 +62,11 @@ class Tracker {
   Alignment refine(const Keyframe& keyframe, const ImagePyramid& image, const Alignment& start,
                    int coarsest, int finest);
   TrackingResult verdict(const Keyframe& keyframe, const Alignment& at, int top_level) const;
+  std::vector<RankedStart> ranked_starts(const Keyframe& keyframe, const ImagePyramid& image,
+                                         const TrackingStart& start, int coarsest);
+  // From all starting motions; what `direct` has found already is not looked for again.
   TrackingResult search(const Keyframe& keyframe, const ImagePyramid& image,
-                        const TrackingStart& start, int coarsest);
+                        const TrackingStart& start, int coarsest, const TrackingResult& direct);
 
   TrackerConfig config_;
   PhotometryConfig photometry_;

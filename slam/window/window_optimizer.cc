@@ -34,6 +34,7 @@ WindowOptimizer::WindowOptimizer(const CameraModel& camera, const WindowConfig& 
 
 void WindowOptimizer::add(std::unique_ptr<Keyframe> keyframe) {
   keyframes_.push_back(std::move(keyframe));
+  pairs_.reset();
   Quadratic grown(size());
   grown.H.topLeftCorner(prior_.H.rows(), prior_.H.cols()) = prior_.H;
   grown.b.head(prior_.b.size()) = prior_.b;
@@ -43,8 +44,11 @@ void WindowOptimizer::add(std::unique_ptr<Keyframe> keyframe) {
 Alignment WindowOptimizer::alignment_of(int host, int target) const {
   Alignment at;
   at.T_camera_keyframe = keyframe(target).T_world_camera.inverse() * keyframe(host).T_world_camera;
-  const auto known = brightness_.find({keyframe(host).sequence, keyframe(target).sequence});
-  if (known != brightness_.end()) at.brightness = known->second;
+  const auto known = known_.find({keyframe(host).sequence, keyframe(target).sequence});
+  if (known != known_.end()) {
+    at.brightness = known->second.brightness;
+    at.sigma_grey = known->second.sigma_grey;
+  }
   return at;
 }
 
@@ -132,7 +136,7 @@ void WindowOptimizer::move(const Eigen::VectorXd& step) {
 bool WindowOptimizer::descend(std::vector<Pair>& pairs, const Eigen::VectorXd& step) {
   std::vector<Eigen::Isometry3d> poses;
   for (const auto& keyframe : keyframes_) poses.push_back(keyframe->T_world_camera);
-  const std::map<PairKey, Brightness> brightness = brightness_;
+  const std::map<PairKey, Photometry> known = known_;
   const double before = total_energy(pairs);
 
   move(step);
@@ -140,12 +144,14 @@ bool WindowOptimizer::descend(std::vector<Pair>& pairs, const Eigen::VectorXd& s
   std::vector<Pair> moved;
   moved.reserve(pairs.size());
   for (const Pair& pair : pairs) {
+    Photometry& next = known_[{keyframe(pair.host).sequence, keyframe(pair.target).sequence}];
+    next = {pair.term.at.brightness, pair.term.at.sigma_grey};
     if (photometry_.affine_brightness) {
       const Vector6d xi = d_relative_d_host(pair) * step.segment<6>(6 * pair.host) -
                           step.segment<6>(6 * pair.target);
       const Eigen::Vector2d d = pair.term.brightness_step + pair.term.d_brightness_d_pose * xi;
-      brightness_[{keyframe(pair.host).sequence, keyframe(pair.target).sequence}] = {
-          pair.term.at.brightness.gain + d.x(), pair.term.at.brightness.offset + d.y()};
+      next.brightness.gain += d.x();
+      next.brightness.offset += d.y();
     }
     moved.push_back({pair.host, pair.target, linearize_pair(pair.host, pair.target)});
     after += energy_at(pair.term, workspace_.current, photometry_);
@@ -156,13 +162,14 @@ bool WindowOptimizer::descend(std::vector<Pair>& pairs, const Eigen::VectorXd& s
     return true;
   }
   for (std::size_t i = 0; i < keyframes_.size(); ++i) keyframes_[i]->T_world_camera = poses[i];
-  brightness_ = brightness;
+  known_ = known;
   return false;
 }
 
 WindowSummary WindowOptimizer::optimize() {
   WindowSummary summary;
-  std::vector<Pair> pairs = covisible_pairs();
+  pairs_ = covisible_pairs();
+  std::vector<Pair>& pairs = *pairs_;
   summary.pairs = static_cast<int>(pairs.size());
   summary.initial_energy = summary.final_energy = total_energy(pairs);
   if (size() < 2 || pairs.empty()) return summary;
@@ -190,18 +197,31 @@ WindowSummary WindowOptimizer::optimize() {
   return summary;
 }
 
+void WindowOptimizer::forget_pairs_of_oldest() {
+  const std::uint64_t leaver = oldest().sequence;
+  std::erase_if(known_, [&](const auto& entry) {
+    return entry.first.first == leaver || entry.first.second == leaver;
+  });
+  if (!pairs_) return;
+  std::erase_if(*pairs_, [](const Pair& pair) { return pair.host == 0 || pair.target == 0; });
+  for (Pair& pair : *pairs_) {
+    --pair.host;
+    --pair.target;
+  }
+}
+
 MarginalizedKeyframe WindowOptimizer::marginalize_oldest() {
   MarginalizedKeyframe result;
   if (size() > 1) {
-    const std::vector<Pair> all = covisible_pairs();
-    const Quadratic everything = energy_about_current(all);
+    if (!pairs_) pairs_ = covisible_pairs();
+    const Quadratic everything = energy_about_current(*pairs_);
     // From the successor's body increment to the left increment of T_keyframe_successor.
     const Matrix6d A = adjoint(keyframe(1).T_world_camera.inverse() * keyframe(0).T_world_camera);
     result.successor_information = A.transpose() * information_of_second(everything) * A;
 
     // Only the terms that involve the leaver go into the prior; the others are evaluated anew.
     std::vector<Pair> leaving;
-    for (const Pair& pair : all) {
+    for (const Pair& pair : *pairs_) {
       if (pair.host == 0 || pair.target == 0) leaving.push_back(pair);
     }
     Quadratic energy = energy_about_current(leaving);
@@ -214,10 +234,7 @@ MarginalizedKeyframe WindowOptimizer::marginalize_oldest() {
   } else {
     prior_ = Quadratic(0);
   }
-  const std::uint64_t leaver = keyframes_.front()->sequence;
-  std::erase_if(brightness_, [&](const auto& entry) {
-    return entry.first.first == leaver || entry.first.second == leaver;
-  });
+  forget_pairs_of_oldest();
   result.keyframe = std::move(keyframes_.front());
   keyframes_.erase(keyframes_.begin());
   return result;

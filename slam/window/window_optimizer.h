@@ -67,6 +67,11 @@ class WindowOptimizer {
     int target;
     PairTerm term;
   };
+  // How a pair compared when last looked at: where the next look starts.
+  struct Photometry {
+    Brightness brightness;
+    double sigma_grey;
+  };
 
   PairTerm linearize_pair(int host, int target);
   std::vector<Pair> covisible_pairs();
@@ -75,6 +80,7 @@ class WindowOptimizer {
   Matrix6d d_relative_d_host(const Pair& pair) const;
   bool descend(std::vector<Pair>& pairs, const Eigen::VectorXd& step);
   void move(const Eigen::VectorXd& step);
+  void forget_pairs_of_oldest();
   double total_energy(const std::vector<Pair>& pairs) const;
   double prior_energy() const;
   Alignment alignment_of(int host, int target) const;
@@ -84,7 +90,10 @@ class WindowOptimizer {
   PhotometryConfig photometry_;
   std::vector<std::unique_ptr<Keyframe>> keyframes_;
   Quadratic prior_;  // over all of keyframes_
-  std::map<PairKey, Brightness> brightness_;
+  std::map<PairKey, Photometry> known_;
+  // The covisible pairs at the current poses, so that what leaves is marginalised from the very
+  // terms that were minimised. None after add().
+  std::optional<std::vector<Pair>> pairs_;
   AlignmentWorkspace workspace_;
 };
 

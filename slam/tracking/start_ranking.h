@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <vector>
+
+#include "slam/tracking/photometric_alignment.h"
+
+namespace sparsight {
+
+// Patches at even steps through the set, about `wanted` of them.
+PatchSet thinned(const PatchSet& patches, std::size_t wanted);
+
+// Where a starting motion leads in a few steps, and how well the patches are found there.
+struct RankedStart {
+  Alignment at;
+  double correlation = 0.0;
+};
+
+// Sorts starting motions by what they promise, best first; those that see fewer than min_visible
+// patches are left out. Cheap: it serves to tell which are worth following.
+std::vector<RankedStart> rank_starts(const std::vector<Alignment>& starts, const PatchSet& patches,
+                                     const GreyImage& image, const CameraModel& camera,
+                                     double mean_inverse_depth, double min_visible,
+                                     const PhotometryConfig& photometry,
+                                     AlignmentWorkspace& workspace);
+
+}  // namespace sparsight
