@@ -2,8 +2,6 @@
 
 #include <Eigen/LU>
 
-#include "slam/tracking/patch_correlation.h"
-
 namespace sparsight {
 namespace {
 
@@ -34,19 +32,13 @@ PairTerm pair_term(const Keyframe& host, const Keyframe& target, const CameraMod
 
   for (const float weight : workspace.current.weight) term.pixels += static_cast<double>(weight);
   term.energy = term.pixels * term.at.cost * information_scale;
-  const PatchAgreement agreement = patch_agreement(patches, workspace.current, term.at.brightness);
-  term.visible_patches = agreement.visible_patches;
-  term.correlation = agreement.median_correlation;
   return term;
 }
 
-double energy_at(const PairTerm& term, const Keyframe& host, const Keyframe& target,
-                 const CameraModel& camera, const Alignment& at, const PhotometryConfig& photometry,
-                 AlignmentWorkspace& workspace) {
-  linearize(host.patches[kFinest], target.pyramid.level(kFinest), camera, at.T_camera_keyframe,
-            at.brightness, workspace.current);
+double energy_at(const PairTerm& term, const Linearization& linearization,
+                 const PhotometryConfig& photometry) {
   const double sigma = term.at.sigma_grey;
-  return term.pixels * robust_cost(workspace.current, photometry.student_t_dof, sigma) /
+  return term.pixels * robust_cost(linearization, photometry.student_t_dof, sigma) /
          (sigma * sigma);
 }
 

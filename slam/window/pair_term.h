@@ -19,19 +19,17 @@ struct PairTerm {
   // Brightness follows the pose: d_brightness = brightness_step + d_brightness_d_pose * xi.
   Eigen::Vector2d brightness_step = Eigen::Vector2d::Zero();
   Eigen::Matrix<double, 2, 6> d_brightness_d_pose = Eigen::Matrix<double, 2, 6>::Zero();
-
-  int visible_patches = 0;
-  double correlation = 0.0;
 };
 
-// Linearises at start.T_camera_keyframe, with sigma estimated there.
+// Linearises at start.T_camera_keyframe, with sigma estimated there; the linearisation is left in
+// workspace.current.
 PairTerm pair_term(const Keyframe& host, const Keyframe& target, const CameraModel& camera,
                    const Alignment& start, const PhotometryConfig& photometry,
                    AlignmentWorkspace& workspace);
 
-// What term.energy becomes elsewhere, for the same sigma and the same number of pixels.
-double energy_at(const PairTerm& term, const Keyframe& host, const Keyframe& target,
-                 const CameraModel& camera, const Alignment& at, const PhotometryConfig& photometry,
-                 AlignmentWorkspace& workspace);
+// What term.energy becomes where the pair is linearised now, for the same sigma and the same number
+// of pixels.
+double energy_at(const PairTerm& term, const Linearization& linearization,
+                 const PhotometryConfig& photometry);
 
 }  // namespace sparsight

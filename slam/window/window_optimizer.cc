@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "slam/tracking/patch_correlation.h"
+
 namespace sparsight {
 namespace {
 
@@ -51,10 +53,6 @@ PairTerm WindowOptimizer::linearize_pair(int host, int target) {
                    photometry_, workspace_);
 }
 
-void WindowOptimizer::linearize_pairs(std::vector<Pair>& pairs) {
-  for (Pair& pair : pairs) pair.term = linearize_pair(pair.host, pair.target);
-}
-
 std::vector<WindowOptimizer::Pair> WindowOptimizer::covisible_pairs() {
   std::vector<Pair> pairs;
   for (int host = 0; host < size(); ++host) {
@@ -64,8 +62,10 @@ std::vector<WindowOptimizer::Pair> WindowOptimizer::covisible_pairs() {
     for (int target = 0; target < size(); ++target) {
       if (host == target) continue;
       Pair pair{host, target, linearize_pair(host, target)};
-      if (pair.term.visible_patches < enough) continue;
-      if (pair.term.correlation < config_.min_correlation) continue;
+      const PatchAgreement agreement = patch_agreement(keyframe(host).patches.front(),
+                                                       workspace_.current, pair.term.at.brightness);
+      if (agreement.visible_patches < enough) continue;
+      if (agreement.median_correlation < config_.min_correlation) continue;
       pairs.push_back(std::move(pair));
     }
   }
@@ -127,7 +127,8 @@ void WindowOptimizer::move(const Eigen::VectorXd& step) {
   }
 }
 
-// Takes the step if it lowers the energy for the scales it was computed with.
+// Takes the step, and the terms linearised there, if it lowers the energy for the scales it was
+// computed with. Images are read once per step: what decides on the step also serves the next one.
 bool WindowOptimizer::descend(std::vector<Pair>& pairs, const Eigen::VectorXd& step) {
   std::vector<Eigen::Isometry3d> poses;
   for (const auto& keyframe : keyframes_) poses.push_back(keyframe->T_world_camera);
@@ -136,6 +137,8 @@ bool WindowOptimizer::descend(std::vector<Pair>& pairs, const Eigen::VectorXd& s
 
   move(step);
   double after = prior_energy();
+  std::vector<Pair> moved;
+  moved.reserve(pairs.size());
   for (const Pair& pair : pairs) {
     if (photometry_.affine_brightness) {
       const Vector6d xi = d_relative_d_host(pair) * step.segment<6>(6 * pair.host) -
@@ -144,10 +147,14 @@ bool WindowOptimizer::descend(std::vector<Pair>& pairs, const Eigen::VectorXd& s
       brightness_[{keyframe(pair.host).sequence, keyframe(pair.target).sequence}] = {
           pair.term.at.brightness.gain + d.x(), pair.term.at.brightness.offset + d.y()};
     }
-    after += energy_at(pair.term, keyframe(pair.host), keyframe(pair.target), camera_,
-                       alignment_of(pair.host, pair.target), photometry_, workspace_);
+    moved.push_back({pair.host, pair.target, linearize_pair(pair.host, pair.target)});
+    after += energy_at(pair.term, workspace_.current, photometry_);
+    if (!(after < before)) break;  // no pair's energy is negative
   }
-  if (after < before) return true;
+  if (after < before) {
+    pairs = std::move(moved);
+    return true;
+  }
   for (std::size_t i = 0; i < keyframes_.size(); ++i) keyframes_[i]->T_world_camera = poses[i];
   brightness_ = brightness;
   return false;
@@ -174,7 +181,6 @@ WindowSummary WindowOptimizer::optimize() {
     }
     if (descend(pairs, step)) {
       damping = damping > kFirstDamping ? 0.1 * damping : 0.0;
-      linearize_pairs(pairs);
     } else {
       damping = std::max(kFirstDamping, 10.0 * damping);
     }

@@ -69,7 +69,6 @@ class WindowOptimizer {
   };
 
   PairTerm linearize_pair(int host, int target);
-  void linearize_pairs(std::vector<Pair>& pairs);
   std::vector<Pair> covisible_pairs();
   Quadratic energy_about_current(const std::vector<Pair>& pairs) const;
   Eigen::VectorXd increments_since_first() const;

@@ -29,14 +29,17 @@ Violation at(const SourceFile& file, const Include& include, std::string_view re
   return fmt::format("{}:{}: includes {}: {}", file.path, include.line, include.path, remedy);
 }
 
-bool starts_with_any(std::string_view text, const std::vector<std::string_view>& prefixes) {
-  return std::ranges::any_of(prefixes, [&](auto prefix) { return text.starts_with(prefix); });
+// A name that ends with a slash stands for all below it.
+bool is_one_of(std::string_view header, const std::vector<std::string_view>& names) {
+  return std::ranges::any_of(names, [&](std::string_view name) {
+    return name.ends_with('/') ? header.starts_with(name) : header == name;
+  });
 }
 
 struct LibraryRule {
-  std::vector<std::string_view> headers;  // prefixes of what stands between the brackets
-  Names layers;                           // where a .cc may include them
-  bool in_headers = false;                // and a .h, too
+  std::vector<std::string_view> headers;
+  Names layers;             // where a .cc may include them
+  bool in_headers = false;  // and a .h, too
   std::string_view remedy;
 };
 
@@ -90,7 +93,7 @@ std::vector<Violation> check_third_party(const std::vector<SourceFile>& sources)
     if (!is_product(file)) continue;
     for (const Include& include : file.includes) {
       for (const LibraryRule& rule : kLibraryRules) {
-        if (!starts_with_any(include.path, rule.headers)) continue;
+        if (!is_one_of(include.path, rule.headers)) continue;
         if (rule.layers.contains(file.layer()) && (rule.in_headers || !file.is_header())) continue;
         violations.push_back(at(file, include, rule.remedy));
       }

@@ -12,8 +12,8 @@ std::vector<Shape> heap_of_shapes(int count, Random& random) {
   for (int i = 0; i < count; ++i) {
     Shape shape;
     shape.kind = i % 2 == 0 ? Shape::Kind::kBox : Shape::Kind::kEllipsoid;
-    shape.T_parent_shape.translation() = Eigen::Vector3d(
-        random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-20, 20));
+    shape.T_parent_shape.translation() =
+        Eigen::Vector3d(random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-20, 20));
     shape.half_size = {random.uniform(0.1, 2), random.uniform(0.1, 2), random.uniform(0.1, 2)};
     shape.sides = std::make_shared<const Material>();
     shape.id = static_cast<std::uint32_t>(i);

@@ -23,10 +23,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kPollInterval{100};
-// A Ctrl-C reaches the child as well, and a second signal would end it without its last files; one
-// that reached only this program is passed on after this time.
-constexpr std::chrono::seconds kOwnEnd{5};
-
 std::vector<std::string> arguments_of(const ReplayRun& run) {
   std::vector<std::string> arguments = {"sparsight",
                                         "replay",
@@ -72,13 +68,14 @@ std::size_t frames_done(const ReplayRun& run) {
   return static_cast<std::size_t>(std::max<std::ptrdiff_t>(lines - 1, 0));
 }
 
-int wait_for(pid_t child, const ReplayRun& run, const ReplayWatch& watch) {
+int wait_for(pid_t child, const ReplayRun& run, const ReplayWatch& watch,
+             std::chrono::milliseconds own_end) {
   int status = 0;
   std::optional<Clock::time_point> interrupted_at;
   bool passed_on = false;
   while (waitpid(child, &status, WNOHANG) == 0) {
     if (!interrupted_at && watch.interrupted()) interrupted_at = Clock::now();
-    if (interrupted_at && !passed_on && Clock::now() - *interrupted_at > kOwnEnd) {
+    if (interrupted_at && !passed_on && Clock::now() - *interrupted_at > own_end) {
       kill(child, SIGTERM);
       passed_on = true;
     }
@@ -101,10 +98,10 @@ std::string reason(int status, const ReplayRun& run) {
 }
 
 ReplayOutcome run_child(const std::filesystem::path& program, const ReplayRun& run,
-                        const ReplayWatch& watch) {
+                        const ReplayWatch& watch, std::chrono::milliseconds own_end) {
   const auto child = spawn(program, arguments_of(run), run.log());
   if (!child) return {ReplayOutcome::Status::kFailed, child.error().message};
-  const int status = wait_for(*child, run, watch);
+  const int status = wait_for(*child, run, watch, own_end);
   if (watch.interrupted()) return {ReplayOutcome::Status::kInterrupted, ""};
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   return {ReplayOutcome::Status::kFailed, reason(status, run)};
@@ -112,9 +109,10 @@ ReplayOutcome run_child(const std::filesystem::path& program, const ReplayRun& r
 
 }  // namespace
 
-ReplayRunner replay_in_process(const std::filesystem::path& program) {
-  return [program](const ReplayRun& run, const ReplayWatch& watch) {
-    return run_child(program, run, watch);
+ReplayRunner replay_in_process(const std::filesystem::path& program,
+                               std::chrono::milliseconds own_end) {
+  return [program, own_end](const ReplayRun& run, const ReplayWatch& watch) {
+    return run_child(program, run, watch, own_end);
   };
 }
 

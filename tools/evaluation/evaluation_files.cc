@@ -62,6 +62,10 @@ Result<TrajectoryPair> read_trajectories(const EvaluationFiles& files) {
     if (!times) {
       return tl::unexpected(times.error());
     }
+    // A cropped sequence may come with the poses of the whole: those after its end have no times.
+    if (truth->times.empty() && truth->poses.size() > times->size()) {
+      truth->poses.resize(times->size());
+    }
     for (Result<Trajectory>* trajectory : {&truth, &estimate}) {
       if ((*trajectory)->times.empty()) {
         *trajectory = with_times(std::move(**trajectory), *times, files.times->string());

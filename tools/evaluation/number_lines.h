@@ -22,7 +22,7 @@ std::vector<NumberLine> split_number_lines(std::string_view text);
 // A finite number, or an error that names file, line and field (`field` counts from 0).
 Result<double> parse_number(const NumberLine& line, std::size_t field, const std::string& source);
 
-// Seconds to whole nanoseconds, without the 0.2 us a double loses at today's date.
+// Seconds, rounded to whole nanoseconds; exact unless written with an exponent.
 Result<std::chrono::nanoseconds> parse_seconds(const NumberLine& line, std::size_t field,
                                                const std::string& source);
 

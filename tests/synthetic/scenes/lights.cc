@@ -32,7 +32,7 @@ double along(double t) {
   return s;
 }
 
-constexpr double kStopped = 33.0;             // along(kStands)
+constexpr double kStopped = 33.0;              // along(kStands)
 constexpr double kCrossing = kStopped + 10.0;  // x of the middle of the near lane across
 
 void add_blocks(Builder& builder, Random& random) {

@@ -21,7 +21,7 @@ class ReplayProcess : public ::testing::Test {
     testing::put(folder_ / "program", "#!/bin/sh\n" + script);
     std::filesystem::permissions(folder_ / "program", std::filesystem::perms::owner_all);
     std::filesystem::create_directories(run_.session);
-    return replay_in_process(folder_ / "program")(
+    return replay_in_process(folder_ / "program", std::chrono::milliseconds(200))(
         run_,
         {.on_progress = [&](std::size_t frames) { most_frames_ = std::max(most_frames_, frames); },
          .interrupted = [&] { return interrupted_; }});
@@ -67,7 +67,7 @@ TEST_F(ReplayProcess, IsNotDoneWhenInterruptedEvenIfTheChildEndsWell) {
   EXPECT_EQ(run("exit 0").status, Status::kInterrupted);
 }
 
-// The child did not hear the interruption itself; without the signal it would sleep for a minute.
+// The child did not hear the interruption itself; without the signal it would sleep on.
 TEST_F(ReplayProcess, PassesAnInterruptionOn) {
   interrupted_ = true;
   const auto start = std::chrono::steady_clock::now();

@@ -67,6 +67,15 @@ TEST_F(EvaluationFilesTest, GivesTimesToTheOneThatHasNone) {
   EXPECT_EQ(reverse->truth.times, reverse->estimate.times);
 }
 
+TEST_F(EvaluationFilesTest, TakesTheGroundTruthAsFarAsTheTimesOfACroppedSequenceGo) {
+  write("times.txt", "0\n0.1\n");
+  const auto pair = read_trajectories({.estimate = folder_ / "truth.tum",
+                                       .truth = folder_ / "truth.kitti",
+                                       .times = folder_ / "times.txt"});
+  ASSERT_TRUE(pair) << pair.error().message;
+  EXPECT_EQ(pair->truth.poses.size(), 2U);
+}
+
 TEST_F(EvaluationFilesTest, RefusesTimesOfAnotherSequence) {
   write("times.txt", "0\n0.1\n");
   const auto pair = read_trajectories({.estimate = folder_ / "truth.kitti",

@@ -45,6 +45,26 @@ TEST(Trajectory, KeepsEveryNanosecondOfTodaysDates) {
   EXPECT_EQ(trajectory->times.at(0).time_since_epoch().count(), 1'763'792'701'123'456'789);
 }
 
+TEST(Trajectory, ReadsTimesHoweverTheyAreWritten) {
+  const std::pair<const char*, std::int64_t> cases[] = {
+      {"1763792701", 1'763'792'701'000'000'000},
+      {"0.1", 100'000'000},
+      {".5", 500'000'000},
+      {"5.", 5'000'000'000},
+      {"+2.25", 2'250'000'000},
+      {"-1.5", -1'500'000'000},
+      {"0.0000000014", 1},
+      {"0.9999999995", 1'000'000'000},
+      {"1.037533e-01", 103'753'300},
+      {"4.5e3", 4'500'000'000'000},
+  };
+  for (const auto& [text, expected] : cases) {
+    const auto times = parse_times(text, "times.txt");
+    ASSERT_TRUE(times) << times.error().message;
+    EXPECT_EQ(times->at(0).time_since_epoch().count(), expected) << text;
+  }
+}
+
 TEST(Trajectory, ReadsExponentsPlusSignsTabsWindowsLineEndsAndAByteOrderMark) {
   const auto trajectory =
       parse_trajectory("\xEF\xBB\xBF+1e0\t0 0 2.5e+00 0 1 0 0 0 0 1 0\r\n\r\n", "a");
