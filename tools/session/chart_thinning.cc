@@ -31,7 +31,7 @@ Curve without_level_middles(const Curve& curve) {
 }  // namespace
 
 Curve thin_curve(const Curve& all, std::size_t columns) {
-  const Curve curve = without_level_middles(all);
+  Curve curve = without_level_middles(all);
   if (curve.size() <= 4 * columns) return curve;
   const double left = curve.front().x();
   const double width = (curve.back().x() - left) / static_cast<double>(columns);

@@ -23,6 +23,7 @@ Trajectory estimate_of(const std::vector<TrajectoryPose>& trajectory, bool with_
 std::vector<Eigen::Vector3d> positions_in_world(const Trajectory& estimate, const Trajectory& truth,
                                                 const std::vector<IndexPair>& pairs) {
   std::vector<Eigen::Vector3d> positions;
+  positions.reserve(pairs.size());
   const Eigen::Isometry3d T_world_truth =
       estimate.poses[pairs.front().estimate] * truth.poses[pairs.front().truth].inverse();
   for (const IndexPair& pair : pairs) {

@@ -12,6 +12,7 @@ namespace {
 
 std::string kitti_text(const std::vector<TrajectoryPose>& trajectory) {
   std::vector<Eigen::Isometry3d> poses;
+  poses.reserve(trajectory.size());
   for (const TrajectoryPose& pose : trajectory) poses.push_back(pose.T_world_camera);
   return format_kitti(poses);
 }
@@ -27,6 +28,7 @@ Trajectory with_its_times(const std::vector<TrajectoryPose>& trajectory) {
 
 std::vector<TrajectoryPose> poses_as_tracked(const std::vector<FrameFigures>& frames) {
   std::vector<TrajectoryPose> trajectory;
+  trajectory.reserve(frames.size());
   for (const FrameFigures& frame : frames) {
     trajectory.push_back({frame.sequence, frame.exposure, frame.T_world_camera});
   }
