@@ -51,7 +51,8 @@ struct Odometry::State {
   MotionModel motion;
   Brightness brightness;  // of the last tracked frame relative to the keyframe
   double start_error_px = std::numeric_limits<double>::infinity();
-  int untracked = 0;  // frames in a row
+  double sigma_grey = std::numeric_limits<double>::infinity();  // of the last tracked frame
+  int untracked = 0;                                            // frames in a row
   // Of the frame last tracked, for add_keyframe.
   ImagePyramid pyramid;
   FrameOutcome outcome;
@@ -73,7 +74,9 @@ FrameOutcome Odometry::State::follow(const SynchronizedFrame& frame) {
       .T_keyframe_previous = motion.T_keyframe_last(),
       .T_keyframe_predicted = motion.predict_T_keyframe_camera(frame.exposure),
       .brightness = brightness,
-      .error_px = start_error_px};
+      .error_px = start_error_px,
+      .sigma_grey = sigma_grey,
+      .seconds_since_previous = motion.seconds_since_last(frame.exposure)};
   if (!pyramid.empty()) result.tracking = tracker.track(keyframe, pyramid, start);
   if (result.tracking.ok()) {
     result.status = FrameOutcome::Status::kTracked;
@@ -105,6 +108,7 @@ void Odometry::State::learn(const SynchronizedFrame& frame, const TrackingResult
       (error.head<3>().norm() + error.tail<3>().norm() * keyframe.mean_inverse_depth);
   motion.observe(frame.exposure, result.T_keyframe_camera);
   brightness = result.brightness;
+  sigma_grey = result.residual_sigma_grey;
   if (predicted) {
     start_error_px = std::isfinite(start_error_px)
                          ? std::max(error_px, kErrorMemory * start_error_px)

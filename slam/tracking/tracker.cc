@@ -68,14 +68,27 @@ Alignment Tracker::refine(const Keyframe& keyframe, const ImagePyramid& image,
   Alignment at = start;
   for (int level = coarsest; level >= finest; --level) {
     const auto index = static_cast<std::size_t>(level);
+    // Far from the pose nearly every patch disagrees as a whole: no ground to judge patches on.
+    PhotometryConfig photometry = photometry_;
+    photometry.patch_weights = photometry_.patch_weights && level == 0;
     at = align(keyframe.patches[index], image.level(level), cameras_[index],
-               keyframe.mean_inverse_depth, at, config_.alignment, photometry_, workspace_);
+               keyframe.mean_inverse_depth, at, config_.alignment, photometry, workspace_);
   }
   return at;
 }
 
+bool Tracker::plausible(const Eigen::Isometry3d& T_keyframe_camera,
+                        const TrackingStart& start) const {
+  if (!T_keyframe_camera.matrix().allFinite()) return false;
+  if (!start.seconds_since_previous) return true;
+  const double seconds = *start.seconds_since_previous;
+  const double surprise_m =
+      (T_keyframe_camera.translation() - start.T_keyframe_predicted.translation()).norm();
+  return surprise_m <= config_.max_acceleration_m_s2 * seconds * seconds;
+}
+
 TrackingResult Tracker::verdict(const Keyframe& keyframe, const Alignment& at,
-                                int top_level) const {
+                                const TrackingStart& start, int top_level) const {
   const PatchSet& finest = keyframe.patches.front();
   const PatchAgreement agreement = patch_agreement(finest, workspace_.current, at.brightness);
   TrackingResult result;
@@ -92,7 +105,7 @@ TrackingResult Tracker::verdict(const Keyframe& keyframe, const Alignment& at,
   if (agreement.visible_patches < config_.min_points) {
     result.status = Status::kTooFewPoints;
   } else if (!(agreement.median_correlation >= config_.min_correlation) ||
-             !result.T_keyframe_camera.matrix().allFinite()) {
+             !plausible(result.T_keyframe_camera, start)) {
     result.status = Status::kDiverged;
   } else {
     result.status = at.converged ? Status::kConverged : Status::kIterationLimit;
@@ -133,7 +146,7 @@ TrackingResult Tracker::search(const Keyframe& keyframe, const ImagePyramid& ima
     if (!places.add(coarse.T_camera_keyframe)) continue;
     ++followed;
     const TrackingResult result =
-        verdict(keyframe, refine(keyframe, image, coarse, coarsest - 1, 0), coarsest);
+        verdict(keyframe, refine(keyframe, image, coarse, coarsest - 1, 0), start, coarsest);
     if (result.ok() >= best.ok() && result.correlation > best.correlation) best = result;
   }
   best.attempts = static_cast<int>(ranked.size());
@@ -150,9 +163,11 @@ TrackingResult Tracker::track(const Keyframe& keyframe, const ImagePyramid& imag
     // A start within about a pixel is within reach of the linearisation.
     top = std::clamp(static_cast<int>(std::ceil(std::log2(std::max(start.error_px, 1.0)))), 0, top);
   }
-  const Alignment at =
-      refine(keyframe, image, start_at(start.T_keyframe_predicted, start.brightness), top, 0);
-  TrackingResult result = verdict(keyframe, at, top);
+  Alignment predicted = start_at(start.T_keyframe_predicted, start.brightness);
+  if (config_.max_sigma_growth > 0.0 && known && top <= 1) {
+    predicted.sigma_limit_grey = config_.max_sigma_growth * start.sigma_grey;
+  }
+  TrackingResult result = verdict(keyframe, refine(keyframe, image, predicted, top, 0), start, top);
   result.attempts = 1;
   if (!config_.try_other_starts || (known && result.ok())) return result;
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "slam/geometry/camera_model.h"
@@ -22,6 +23,11 @@ struct TrackerConfig {
   bool try_other_starts = true;
   int min_points = 30;           // visible patches, fewer cannot be tracked
   double min_correlation = 0.5;  // of the patches with the image, below: diverged
+  // No rig that people or vehicles carry changes its speed faster; a pose that says so is wrong.
+  double max_acceleration_m_s2 = 1e3;
+  // After a good prediction the residual scale may grow by this factor from frame to frame; what
+  // fits worse (passing cars that fill the image) is not part of the scene. 0: no limit.
+  double max_sigma_growth = 0.0;
 };
 
 struct TrackingResult {
@@ -45,7 +51,10 @@ struct TrackingStart {
   Eigen::Isometry3d T_keyframe_previous = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_keyframe_predicted = Eigen::Isometry3d::Identity();
   Brightness brightness;
-  double error_px = std::numeric_limits<double>::infinity();  // of the prediction, in the image
+  double error_px = std::numeric_limits<double>::infinity();    // of the prediction, in the image
+  double sigma_grey = std::numeric_limits<double>::infinity();  // residual scale of the last frame
+  // Time since the last tracked frame; nothing if its velocity is not known.
+  std::optional<double> seconds_since_previous;
 };
 
 // Direct tracking of a frame against a keyframe, Sec. IV-C. Thread-bound.
@@ -61,7 +70,9 @@ class Tracker {
   // Coarse to fine, both levels included; leaves the last linearisation in the workspace.
   Alignment refine(const Keyframe& keyframe, const ImagePyramid& image, const Alignment& start,
                    int coarsest, int finest);
-  TrackingResult verdict(const Keyframe& keyframe, const Alignment& at, int top_level) const;
+  TrackingResult verdict(const Keyframe& keyframe, const Alignment& at, const TrackingStart& start,
+                         int top_level) const;
+  bool plausible(const Eigen::Isometry3d& T_keyframe_camera, const TrackingStart& start) const;
   std::vector<RankedStart> ranked_starts(const Keyframe& keyframe, const ImagePyramid& image,
                                          const TrackingStart& start, int coarsest);
   // From all starting motions; what `direct` has found already is not looked for again.

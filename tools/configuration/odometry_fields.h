@@ -49,6 +49,8 @@ void visit_fields(Visitor& profile, TrackerConfig& tracker) {
   profile.field("try_other_starts", tracker.try_other_starts);
   profile.field("min_points", tracker.min_points, {6, 100000});
   profile.field("min_correlation", tracker.min_correlation, {-1.0, 1.0});
+  profile.field("max_acceleration_m_s2", tracker.max_acceleration_m_s2, {1.0, 1e6});
+  profile.field("max_sigma_growth", tracker.max_sigma_growth, {0.0, 1000.0});
 }
 
 template <typename Visitor>
