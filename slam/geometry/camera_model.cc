@@ -12,8 +12,9 @@ constexpr double kWidestRadius2 = 100.0;  // 84 degrees off axis
 // The radial function r * (1 + k1 r^2 + k2 r^4 + k3 r^6) grows up to here.
 double one_to_one_radius2(const CameraIntrinsics& c) {
   if (!c.distorted()) return kWidestRadius2;
-  for (double r2 = 0.0; r2 < kWidestRadius2; r2 += 0.01) {
-    if (1.0 + r2 * (3.0 * c.k1 + r2 * (5.0 * c.k2 + r2 * 7.0 * c.k3)) <= 0.0) return r2;
+  constexpr double kStep = 0.01;
+  for (double r2 = kStep; r2 < kWidestRadius2; r2 += kStep) {
+    if (1.0 + r2 * (3.0 * c.k1 + r2 * (5.0 * c.k2 + r2 * 7.0 * c.k3)) <= 0.0) return r2 - kStep;
   }
   return kWidestRadius2;
 }
@@ -50,7 +51,7 @@ Eigen::Vector2d CameraModel::distort(const Eigen::Vector2d& n) const {
 bool CameraModel::project(const Eigen::Vector3d& p_camera, Eigen::Vector2d& pixel) const {
   if (!(p_camera.z() > kMinDepth)) return false;
   const Eigen::Vector2d normalized = p_camera.head<2>() / p_camera.z();
-  if (normalized.squaredNorm() > max_radius2_) return false;
+  if (!(normalized.squaredNorm() <= max_radius2_)) return false;  // NaN as well
   const Eigen::Vector2d d = intrinsics_.distorted() ? distort(normalized) : normalized;
   pixel = {intrinsics_.fx * d.x() + intrinsics_.cx, intrinsics_.fy * d.y() + intrinsics_.cy};
   return true;
