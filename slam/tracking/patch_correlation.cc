@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 namespace sparsight {
 namespace {
 
+constexpr double kFoundCorrelation = 0.7;
 constexpr double kTextureGrey = 4.0;  // standard deviation from which a patch has texture
 
 struct Moments {
@@ -34,8 +34,8 @@ struct Moments {
 PatchAgreement patch_agreement(const PatchSet& patches, const Linearization& linearization,
                                const Brightness& brightness) {
   PatchAgreement result;
-  std::vector<double> correlations;
-  correlations.reserve(patches.patches);
+  int textured = 0;
+  int found = 0;
   for (std::size_t patch = 0; patch < patches.patches; ++patch) {
     const std::size_t first = patch * kPatternSize;
     if (linearization.weight[first] <= 0.0F) continue;  // the pattern's first pixel is its centre
@@ -47,12 +47,10 @@ PatchAgreement patch_agreement(const PatchSet& patches, const Linearization& lin
       m.add(reference, linearization.residual[i] + brightness.gain * reference + brightness.offset);
     }
     if (m.variance_a() < kTextureGrey * kTextureGrey) continue;
-    correlations.push_back(m.correlation());
+    ++textured;
+    if (m.correlation() >= kFoundCorrelation) ++found;
   }
-  if (correlations.empty()) return result;
-  const auto middle = correlations.begin() + static_cast<std::ptrdiff_t>(correlations.size() / 2);
-  std::nth_element(correlations.begin(), middle, correlations.end());
-  result.median_correlation = *middle;
+  if (textured > 0) result.found_share = static_cast<double>(found) / textured;
   return result;
 }
 

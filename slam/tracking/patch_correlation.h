@@ -4,11 +4,12 @@
 
 namespace sparsight {
 
-// How well the patches are found in the image, whatever the brightness: the median over the
-// textured visible patches of the normalised cross-correlation; 1 is a perfect match, 0 chance. 1
-// if no patch has texture: nothing speaks against the pose.
+// How much of the keyframe is found in the image, whatever the brightness: the share of the
+// textured visible patches whose normalised cross-correlation with the image is high. A share and
+// not a mean: cars that fill half the image do not make the other half wrong. 1 if no patch has
+// texture: nothing speaks against the pose.
 struct PatchAgreement {
-  double median_correlation = 1.0;
+  double found_share = 1.0;
   int visible_patches = 0;  // their centre projects into the image
 };
 

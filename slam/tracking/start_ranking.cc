@@ -49,10 +49,10 @@ std::vector<RankedStart> rank_starts(const std::vector<Alignment>& starts, const
         align(patches, image, camera, mean_inverse_depth, start, kFewSteps, photometry, workspace);
     const PatchAgreement agreement = patch_agreement(patches, workspace.current, at.brightness);
     if (agreement.visible_patches < min_visible) continue;
-    ranked.push_back({at, agreement.median_correlation});
+    ranked.push_back({at, agreement.found_share});
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const RankedStart& a, const RankedStart& b) {
-    return a.correlation > b.correlation;
+    return a.found_share > b.found_share;
   });
   return ranked;
 }

@@ -14,7 +14,7 @@ PatchSet thinned(const PatchSet& patches, std::size_t wanted);
 // Where a starting motion leads in a few steps, and how well the patches are found there.
 struct RankedStart {
   Alignment at;
-  double correlation = 0.0;
+  double found_share = 0.0;
 };
 
 // Sorts starting motions by what they promise, best first; those that see fewer than min_visible

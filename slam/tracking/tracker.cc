@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstddef>
 
 #include "slam/tracking/patch_correlation.h"
@@ -53,6 +54,14 @@ class VisitedPlaces {
   std::vector<Eigen::Isometry3d> places_;
 };
 
+// A start that finds more than this share of the patches is as good as right.
+static const double kFoundAtStart = std::getenv("KF")?std::atof(std::getenv("KF")):0.4;
+
+PhotometryConfig per_pixel(PhotometryConfig photometry) {
+  photometry.patch_weights = false;
+  return photometry;
+}
+
 }  // namespace
 
 Tracker::Tracker(const CameraModel& camera, const TrackerConfig& config,
@@ -64,17 +73,54 @@ Tracker::Tracker(const CameraModel& camera, const TrackerConfig& config,
 }
 
 Alignment Tracker::refine(const Keyframe& keyframe, const ImagePyramid& image,
-                          const Alignment& start, int coarsest, int finest) {
+                          const Alignment& start, int coarsest, int finest,
+                          const PhotometryConfig& photometry) {
   Alignment at = start;
   for (int level = coarsest; level >= finest; --level) {
     const auto index = static_cast<std::size_t>(level);
-    // Far from the pose nearly every patch disagrees as a whole: no ground to judge patches on.
-    PhotometryConfig photometry = photometry_;
-    photometry.patch_weights = photometry_.patch_weights && level == 0;
     at = align(keyframe.patches[index], image.level(level), cameras_[index],
                keyframe.mean_inverse_depth, at, config_.alignment, photometry, workspace_);
   }
   return at;
+}
+
+// The prediction or, as a rig often stands still, the last pose: whichever already sees the
+// keyframe at the finer level. A linearisation reaches about a pixel, and a patch that is a pixel
+// off is not found; where neither is found the error that predictions had lately tells the level.
+Tracker::Entry Tracker::entry(const Keyframe& keyframe, const ImagePyramid& image,
+                              const TrackingStart& start, int coarsest) {
+  Entry best{.at = start_at(start.T_keyframe_predicted, start.brightness), .level = coarsest};
+  if (!config_.automatic_top_level || !std::isfinite(start.error_px)) return best;
+  for (int level = 0; level <= coarsest && !best.found; ++level) {
+    const auto index = static_cast<std::size_t>(level);
+    double best_share = kFoundAtStart;
+    for (const Eigen::Isometry3d& T : {start.T_keyframe_predicted, start.T_keyframe_previous}) {
+      if (!plausible(T, start)) continue;
+      const Alignment at = assess(keyframe.patches[index], image.level(level), cameras_[index],
+                                  start_at(T, start.brightness), photometry_, workspace_);
+      const PatchAgreement agreement =
+          patch_agreement(keyframe.patches[index], workspace_.current, at.brightness);
+      if (agreement.visible_patches < config_.min_points) continue;
+      if (agreement.found_share <= best_share) continue;
+      best_share = agreement.found_share;
+      best = {.at = start_at(T, start.brightness), .level = level, .found = true};
+    }
+  }
+  if (!best.found) {
+    best.level = std::clamp(static_cast<int>(std::ceil(std::log2(std::max(start.error_px, 1.0)))),
+                            0, coarsest);
+  } else if (config_.max_sigma_growth > 0.0) {
+    best.at.sigma_limit_grey = config_.max_sigma_growth * start.sigma_grey;
+  }
+  return best;
+}
+
+// Far from the pose nearly every patch disagrees as a whole, and there is no ground to judge
+// patches on before the finest level.
+Alignment Tracker::descend(const Keyframe& keyframe, const ImagePyramid& image,
+                           const Alignment& start, int coarsest) {
+  const Alignment near = refine(keyframe, image, start, coarsest, 1, per_pixel(photometry_));
+  return refine(keyframe, image, near, 0, 0, photometry_);
 }
 
 bool Tracker::plausible(const Eigen::Isometry3d& T_keyframe_camera,
@@ -99,12 +145,12 @@ TrackingResult Tracker::verdict(const Keyframe& keyframe, const Alignment& at,
   result.visible_ratio = static_cast<double>(agreement.visible_patches) /
                          std::max(1.0, static_cast<double>(finest.patches));
   result.residual_sigma_grey = at.sigma_grey;
-  result.correlation = agreement.median_correlation;
+  result.found_share = agreement.found_share;
   result.top_level = top_level;
   using Status = TrackingResult::Status;
   if (agreement.visible_patches < config_.min_points) {
     result.status = Status::kTooFewPoints;
-  } else if (!(agreement.median_correlation >= config_.min_correlation) ||
+  } else if (!(agreement.found_share >= config_.min_found_share) ||
              !plausible(result.T_keyframe_camera, start)) {
     result.status = Status::kDiverged;
   } else {
@@ -141,13 +187,14 @@ TrackingResult Tracker::search(const Keyframe& keyframe, const ImagePyramid& ima
   TrackingResult best;
   int followed = 0;
   for (std::size_t i = 0; i < std::min(ranked.size(), kExamined) && followed < kFollowed; ++i) {
-    if (ranked[i].correlation < ranked.front().correlation - kHopeless) break;
-    const Alignment coarse = refine(keyframe, image, ranked[i].at, coarsest, coarsest);
+    if (ranked[i].found_share < ranked.front().found_share - kHopeless) break;
+    const Alignment coarse =
+        refine(keyframe, image, ranked[i].at, coarsest, coarsest, per_pixel(photometry_));
     if (!places.add(coarse.T_camera_keyframe)) continue;
     ++followed;
     const TrackingResult result =
-        verdict(keyframe, refine(keyframe, image, coarse, coarsest - 1, 0), start, coarsest);
-    if (result.ok() >= best.ok() && result.correlation > best.correlation) best = result;
+        verdict(keyframe, descend(keyframe, image, coarse, coarsest - 1), start, coarsest);
+    if (result.ok() >= best.ok() && result.found_share > best.found_share) best = result;
   }
   best.attempts = static_cast<int>(ranked.size());
   return best;
@@ -158,22 +205,16 @@ TrackingResult Tracker::track(const Keyframe& keyframe, const ImagePyramid& imag
   const int levels =
       std::min({config_.pyramid_levels, image.levels(), static_cast<int>(keyframe.patches.size())});
   const bool known = std::isfinite(start.error_px);
-  int top = levels - 1;
-  if (config_.automatic_top_level && known) {
-    // A start within about a pixel is within reach of the linearisation.
-    top = std::clamp(static_cast<int>(std::ceil(std::log2(std::max(start.error_px, 1.0)))), 0, top);
-  }
-  Alignment predicted = start_at(start.T_keyframe_predicted, start.brightness);
-  if (config_.max_sigma_growth > 0.0 && known && top <= 1) {
-    predicted.sigma_limit_grey = config_.max_sigma_growth * start.sigma_grey;
-  }
-  TrackingResult result = verdict(keyframe, refine(keyframe, image, predicted, top, 0), start, top);
+  const Entry from = entry(keyframe, image, start, levels - 1);
+  const Alignment at = from.found ? refine(keyframe, image, from.at, from.level, 0, photometry_)
+                                  : descend(keyframe, image, from.at, from.level);
+  TrackingResult result = verdict(keyframe, at, start, from.level);
   result.attempts = 1;
   if (!config_.try_other_starts || (known && result.ok())) return result;
 
   TrackingResult searched = search(keyframe, image, start, levels - 1, result);
   searched.attempts += result.attempts;
-  return searched.ok() >= result.ok() && searched.correlation > result.correlation ? searched
+  return searched.ok() >= result.ok() && searched.found_share > result.found_share ? searched
                                                                                    : result;
 }
 

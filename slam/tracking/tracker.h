@@ -22,7 +22,7 @@ struct TrackerConfig {
   bool automatic_top_level = false;
   bool try_other_starts = true;
   int min_points = 30;           // visible patches, fewer cannot be tracked
-  double min_correlation = 0.5;  // of the patches with the image, below: diverged
+  double min_found_share = 0.3;  // of the patches, below: diverged
   // No rig that people or vehicles carry changes its speed faster; a pose that says so is wrong.
   double max_acceleration_m_s2 = 1e3;
   // After a good prediction the residual scale may grow by this factor from frame to frame; what
@@ -39,7 +39,7 @@ struct TrackingResult {
   int points_used = 0;
   double visible_ratio = 0.0;  // share of the keyframe's points that project into the image
   double residual_sigma_grey = 0.0;
-  double correlation = 0.0;  // median over the patches of their correlation with the image
+  double found_share = 0.0;  // of the patches, found in the image
   int top_level = 0;
   int attempts = 0;  // starting motions tried
 
@@ -67,9 +67,20 @@ class Tracker {
                        const TrackingStart& start);
 
  private:
+  // A start and the coarsest level it needs. `found`: most of what the keyframe shows is seen from
+  // there already, so that what is not seen is no part of the scene.
+  struct Entry {
+    Alignment at;
+    int level = 0;
+    bool found = false;
+  };
+  Entry entry(const Keyframe& keyframe, const ImagePyramid& image, const TrackingStart& start,
+              int coarsest);
   // Coarse to fine, both levels included; leaves the last linearisation in the workspace.
   Alignment refine(const Keyframe& keyframe, const ImagePyramid& image, const Alignment& start,
-                   int coarsest, int finest);
+                   int coarsest, int finest, const PhotometryConfig& photometry);
+  Alignment descend(const Keyframe& keyframe, const ImagePyramid& image, const Alignment& start,
+                    int coarsest);
   TrackingResult verdict(const Keyframe& keyframe, const Alignment& at, const TrackingStart& start,
                          int top_level) const;
   bool plausible(const Eigen::Isometry3d& T_keyframe_camera, const TrackingStart& start) const;

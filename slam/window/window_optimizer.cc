@@ -69,7 +69,7 @@ std::vector<WindowOptimizer::Pair> WindowOptimizer::covisible_pairs() {
       const PatchAgreement agreement = patch_agreement(keyframe(host).patches.front(),
                                                        workspace_.current, pair.term.at.brightness);
       if (agreement.visible_patches < enough) continue;
-      if (agreement.median_correlation < config_.min_correlation) continue;
+      if (agreement.found_share < config_.min_found_share) continue;
       pairs.push_back(std::move(pair));
     }
   }

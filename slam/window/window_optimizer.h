@@ -21,7 +21,7 @@ struct WindowConfig {
   // project into the target and are found there.
   double min_visible_ratio = 0.15;
   int min_points = 30;
-  double min_correlation = 0.5;
+  double min_found_share = 0.3;
 };
 
 struct WindowSummary {

@@ -48,7 +48,7 @@ void visit_fields(Visitor& profile, TrackerConfig& tracker) {
   profile.field("automatic_top_level", tracker.automatic_top_level);
   profile.field("try_other_starts", tracker.try_other_starts);
   profile.field("min_points", tracker.min_points, {6, 100000});
-  profile.field("min_correlation", tracker.min_correlation, {-1.0, 1.0});
+  profile.field("min_found_share", tracker.min_found_share, {-1.0, 1.0});
   profile.field("max_acceleration_m_s2", tracker.max_acceleration_m_s2, {1.0, 1e6});
   profile.field("max_sigma_growth", tracker.max_sigma_growth, {0.0, 1000.0});
 }
@@ -66,7 +66,7 @@ void visit_fields(Visitor& profile, WindowConfig& window) {
   profile.field("convergence_px", window.convergence_px, {1e-6, 10.0});
   profile.field("min_visible_ratio", window.min_visible_ratio, kShare);
   profile.field("min_points", window.min_points, {6, 100000});
-  profile.field("min_correlation", window.min_correlation, {-1.0, 1.0});
+  profile.field("min_found_share", window.min_found_share, {-1.0, 1.0});
 }
 
 template <typename Visitor>
