@@ -52,6 +52,7 @@ struct Odometry::State {
   Brightness brightness;  // of the last tracked frame relative to the keyframe
   double start_error_px = std::numeric_limits<double>::infinity();
   double sigma_grey = std::numeric_limits<double>::infinity();  // of the last tracked frame
+  double found_share = 0.0;                                     // of the last tracked frame
   int untracked = 0;                                            // frames in a row
   // Of the frame last tracked, for add_keyframe.
   ImagePyramid pyramid;
@@ -76,6 +77,7 @@ FrameOutcome Odometry::State::follow(const SynchronizedFrame& frame) {
       .brightness = brightness,
       .error_px = start_error_px,
       .sigma_grey = sigma_grey,
+      .found_share = found_share,
       .seconds_since_previous = motion.seconds_since_last(frame.exposure)};
   if (!pyramid.empty()) result.tracking = tracker.track(keyframe, pyramid, start);
   if (result.tracking.ok()) {
@@ -109,6 +111,7 @@ void Odometry::State::learn(const SynchronizedFrame& frame, const TrackingResult
   motion.observe(frame.exposure, result.T_keyframe_camera);
   brightness = result.brightness;
   sigma_grey = result.residual_sigma_grey;
+  found_share = result.found_share;
   if (predicted) {
     start_error_px = std::isfinite(start_error_px)
                          ? std::max(error_px, kErrorMemory * start_error_px)

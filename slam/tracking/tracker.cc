@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstddef>
 
 #include "slam/tracking/patch_correlation.h"
@@ -55,7 +54,8 @@ class VisitedPlaces {
 };
 
 // A start that finds more than this share of the patches is as good as right.
-static const double kFoundAtStart = std::getenv("KF")?std::atof(std::getenv("KF")):0.4;
+constexpr double kFoundAtStart = 0.4;
+constexpr double kDoubtful = 0.6;
 
 PhotometryConfig per_pixel(PhotometryConfig photometry) {
   photometry.patch_weights = false;
@@ -210,7 +210,9 @@ TrackingResult Tracker::track(const Keyframe& keyframe, const ImagePyramid& imag
                                   : descend(keyframe, image, from.at, from.level);
   TrackingResult result = verdict(keyframe, at, start, from.level);
   result.attempts = 1;
-  if (!config_.try_other_starts || (known && result.ok())) return result;
+  // Much less found than in the frame before: perhaps the wrong minimum.
+  const bool doubtful = result.found_share < kDoubtful * start.found_share;
+  if (!config_.try_other_starts || (known && result.ok() && !doubtful)) return result;
 
   TrackingResult searched = search(keyframe, image, start, levels - 1, result);
   searched.attempts += result.attempts;

@@ -53,6 +53,7 @@ struct TrackingStart {
   Brightness brightness;
   double error_px = std::numeric_limits<double>::infinity();    // of the prediction, in the image
   double sigma_grey = std::numeric_limits<double>::infinity();  // residual scale of the last frame
+  double found_share = 0.0;                                     // of the last frame
   // Time since the last tracked frame; nothing if its velocity is not known.
   std::optional<double> seconds_since_previous;
 };
