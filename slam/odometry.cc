@@ -181,11 +181,10 @@ void Odometry::add_keyframe(const SynchronizedFrame& frame) {
   State& s = *state_;
   std::unique_ptr<Keyframe> keyframe = s.make_keyframe(frame);
   if (static_cast<int>(keyframe->points.size()) < s.config.tracker.min_points) return;
-  if (!s.motion.started()) s.motion.observe(frame.exposure, Eigen::Isometry3d::Identity());
   s.window.add(std::move(keyframe));
   s.window.optimize();
   if (s.window.full()) s.retire_oldest();
-  s.motion.rebase();
+  s.motion.rebase(frame.exposure);
   s.brightness = {};
 }
 

@@ -16,6 +16,10 @@ constexpr float kNeighborCosine = 0.99985F;  // 1 degree
 
 constexpr double kCellRad = 0.5 * M_PI / 180.0;  // hidden within one to two cells
 constexpr float kHiddenShare = 0.85F;            // nearer than this share of the depth
+// And nearer by this much, 1/m: within two cells, inverse depth changes as much on the ground 1.2 m
+// below the camera, at any distance. Less would shift by less than half a cell between a camera and
+// a LiDAR that stand 0.3 m apart: that is left to the depth edges.
+constexpr float kHiddenInverseDepth = 2.0F * static_cast<float>(kCellRad) / 1.2F;
 
 bool jump_between(const CameraReturn& a, const CameraReturn& b) {
   const float range_a = a.p_camera.norm();
@@ -63,7 +67,9 @@ std::vector<bool> hidden_from_camera(const std::vector<CameraReturn>& returns,
         depth = std::min(depth, nearest[static_cast<std::size_t>(cell + row + column)]);
       }
     }
-    hidden[i] = depth < kHiddenShare * returns[i].p_camera.z();
+    const float own_depth = returns[i].p_camera.z();
+    hidden[i] =
+        depth < kHiddenShare * own_depth && 1.0F / depth - 1.0F / own_depth > kHiddenInverseDepth;
   }
   return hidden;
 }

@@ -11,7 +11,10 @@ void MotionModel::observe(HostTime exposure, const Eigen::Isometry3d& T_keyframe
   T_keyframe_last_ = T_keyframe_camera;
 }
 
-void MotionModel::rebase() { T_keyframe_last_ = Eigen::Isometry3d::Identity(); }
+void MotionModel::rebase(HostTime exposure) {
+  last_exposure_ = exposure;
+  T_keyframe_last_ = Eigen::Isometry3d::Identity();
+}
 
 std::optional<double> MotionModel::seconds_since_last(HostTime exposure) const {
   if (!twist_ || !last_exposure_) return std::nullopt;

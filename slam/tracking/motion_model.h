@@ -13,12 +13,11 @@ class MotionModel {
  public:
   // The frame at `exposure` stands at T_keyframe_camera of the current keyframe.
   void observe(HostTime exposure, const Eigen::Isometry3d& T_keyframe_camera);
-  // The last observed frame is the keyframe from now on.
-  void rebase();
+  // The frame at `exposure` is the keyframe from now on, whether or not it was observed.
+  void rebase(HostTime exposure);
   // Forgets the velocity: what was observed is not to be continued.
   void forget_velocity() { twist_.reset(); }
 
-  bool started() const { return last_exposure_.has_value(); }
   // Camera-frame velocity [rad/s, m/s]; nothing before two frames were observed.
   const std::optional<Vector6d>& twist() const { return twist_; }
   const Eigen::Isometry3d& T_keyframe_last() const { return T_keyframe_last_; }

@@ -214,10 +214,11 @@ TrackingResult Tracker::track(const Keyframe& keyframe, const ImagePyramid& imag
   const bool doubtful = result.found_share < kDoubtful * start.found_share;
   if (!config_.try_other_starts || (known && result.ok() && !doubtful)) return result;
 
-  TrackingResult searched = search(keyframe, image, start, levels - 1, result);
-  searched.attempts += result.attempts;
-  return searched.ok() >= result.ok() && searched.found_share > result.found_share ? searched
-                                                                                   : result;
+  const TrackingResult searched = search(keyframe, image, start, levels - 1, result);
+  const int attempts = result.attempts + searched.attempts;
+  if (searched.ok() >= result.ok() && searched.found_share > result.found_share) result = searched;
+  result.attempts = attempts;
+  return result;
 }
 
 }  // namespace sparsight

@@ -1,0 +1,336 @@
+#include "slam/odometry.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/slam/sine_room.h"
+
+namespace sparsight {
+namespace {
+
+constexpr double kFrameSeconds = 0.1;
+
+// Camera and LiDAR, 10 Hz, moved through the room along a gentle curve.
+struct RoomRig {
+  SineRoom room;
+  Eigen::Isometry3d T_camera_lidar = mount();
+  double speed_m_s = 0.6;
+  double turn_rad_s = 0.06;
+
+  static Eigen::Isometry3d mount() {
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+    T.translation() = Eigen::Vector3d(0.02, -0.1, -0.05);
+    return T;
+  }
+  RigCalibration calibration() const { return {room.intrinsics, T_camera_lidar}; }
+
+  Eigen::Isometry3d T_world_camera(int i) const {
+    const double t = kFrameSeconds * i;
+    return pose(0.02 * std::sin(t), turn_rad_s * t, 0.0, 0.1 * std::sin(0.5 * t), 0.0,
+                speed_m_s * t);
+  }
+
+  SynchronizedFrame frame(int i) const {
+    SynchronizedFrame result;
+    result.sequence = static_cast<std::uint64_t>(i);
+    result.exposure = HostTime(std::chrono::milliseconds(100 * i));
+    result.grey = room.image(T_world_camera(i));
+    result.sweep = sweep(i);
+    return result;
+  }
+
+  // Rings every 0.8 degrees, seen from the LiDAR's own place.
+  Sweep sweep(int i) const {
+    Sweep result{.motion_compensated = true};
+    const Eigen::Isometry3d T_world_lidar = T_world_camera(i) * T_camera_lidar;
+    for (int ring = 0; ring < 60; ++ring) {
+      for (int column = 0; column < 90; ++column) {
+        const double elevation = 0.014 * (30 - ring);
+        const double azimuth = 0.014 * (45 - column);
+        const Eigen::Vector3d ray(std::cos(elevation) * std::cos(azimuth),
+                                  std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+        const Eigen::Vector3d p_world =
+            room.wall_along(T_world_lidar.translation(), T_world_lidar.linear() * ray);
+        result.returns.push_back({.p_lidar = (T_world_lidar.inverse() * p_world).cast<float>(),
+                                  .intensity = 0.5F,
+                                  .ring = static_cast<std::uint16_t>(ring)});
+      }
+    }
+    return result;
+  }
+};
+
+OdometryConfig small_config() {
+  OdometryConfig config;
+  config.tracker.pyramid_levels = 3;
+  config.points.surface_slope = true;
+  return config;
+}
+
+GreyImage black() {
+  return analytic_image(160, 120, [](double, double) { return 0.0; });
+}
+
+using Status = FrameOutcome::Status;
+
+// One run, as realtime/pipeline drives it.
+struct Drive {
+  explicit Drive(const RoomRig& rig, const OdometryConfig& config = small_config())
+      : odometry(rig.calibration(), config) {}
+
+  FrameOutcome feed(const SynchronizedFrame& frame) {
+    const FrameOutcome outcome = odometry.track(frame);
+    if (outcome.becomes_keyframe) {
+      odometry.add_keyframe(frame);
+      keyframes.push_back(frame.sequence);
+    }
+    for (RetiredKeyframe& keyframe : odometry.take_retired()) {
+      retired.push_back(std::move(keyframe));
+    }
+    return outcome;
+  }
+  void finish() {
+    odometry.finish();
+    for (RetiredKeyframe& keyframe : odometry.take_retired()) {
+      retired.push_back(std::move(keyframe));
+    }
+  }
+
+  Odometry odometry;
+  std::vector<std::uint64_t> keyframes;
+  std::vector<RetiredKeyframe> retired;
+};
+
+TEST(Odometry, FirstFrameDefinesTheWorld) {
+  const RoomRig rig;
+  Drive run(rig);
+  const FrameOutcome first = run.feed(rig.frame(7));
+  EXPECT_EQ(first.status, Status::kFirst);
+  EXPECT_TRUE(first.becomes_keyframe);
+  EXPECT_EQ(first.T_world_camera.matrix(), Eigen::Matrix4d::Identity());
+  EXPECT_EQ(first.keyframe_sequence, 7U);
+}
+
+TEST(Odometry, FollowsACurve) {
+  const RoomRig rig;
+  Drive run(rig);
+  for (int i = 0; i < 25; ++i) {
+    const FrameOutcome outcome = run.feed(rig.frame(i));
+    EXPECT_EQ(outcome.status, i == 0 ? Status::kFirst : Status::kTracked) << i;
+    EXPECT_LT(shift_between(outcome.T_world_camera, rig.T_world_camera(i)), 0.01) << i;
+    EXPECT_LT(turn_between(outcome.T_world_camera, rig.T_world_camera(i)), 2e-3) << i;
+  }
+  EXPECT_GE(run.keyframes.size(), 3U);
+}
+
+TEST(Odometry, WaitsForAFrameWithImageAndDepth) {
+  const RoomRig rig;
+  Drive run(rig);
+  SynchronizedFrame blind = rig.frame(0);
+  blind.grey = {};
+  SynchronizedFrame flat = rig.frame(1);
+  flat.sweep.returns.clear();
+  SynchronizedFrame sparse = rig.frame(2);
+  sparse.sweep.returns.resize(5);
+  for (const SynchronizedFrame& frame : {blind, flat}) {
+    const FrameOutcome outcome = run.feed(frame);
+    EXPECT_EQ(outcome.status, Status::kPredicted);
+    EXPECT_FALSE(outcome.becomes_keyframe);
+  }
+  run.feed(sparse);  // too few points: no keyframe comes of it
+  const FrameOutcome first = run.feed(rig.frame(3));
+  EXPECT_EQ(first.status, Status::kFirst);
+  EXPECT_EQ(run.feed(rig.frame(4)).keyframe_sequence, 3U);
+}
+
+TEST(Odometry, PredictsAFrameWithoutImageAndSaysSo) {
+  const RoomRig rig;
+  Drive run(rig);
+  for (int i = 0; i < 6; ++i) run.feed(rig.frame(i));
+  SynchronizedFrame blind = rig.frame(6);
+  blind.grey = {};
+  const FrameOutcome outcome = run.feed(blind);
+  EXPECT_EQ(outcome.status, Status::kPredicted);
+  EXPECT_FALSE(outcome.tracking.ok());
+  EXPECT_FALSE(outcome.becomes_keyframe);
+  EXPECT_LT(shift_between(outcome.T_world_camera, rig.T_world_camera(6)), 0.01);
+  EXPECT_GT(shift_between(outcome.T_world_camera, rig.T_world_camera(5)), 0.03) << "it moved on";
+  const FrameOutcome next = run.feed(rig.frame(7));
+  EXPECT_EQ(next.status, Status::kTracked);
+  EXPECT_LT(shift_between(next.T_world_camera, rig.T_world_camera(7)), 0.01);
+}
+
+TEST(Odometry, TracksAFrameWithoutDepthButMakesNoKeyframeOfIt) {
+  const RoomRig rig;
+  Drive run(rig);
+  run.feed(rig.frame(0));
+  for (int i = 1; i < 15; ++i) {
+    SynchronizedFrame flat = rig.frame(i);
+    flat.sweep.returns.clear();
+    const FrameOutcome outcome = run.feed(flat);
+    EXPECT_EQ(outcome.status, Status::kTracked) << i;
+    EXPECT_FALSE(outcome.becomes_keyframe) << i;
+  }
+  EXPECT_TRUE(run.feed(rig.frame(15)).becomes_keyframe) << "overdue";
+}
+
+// A hand over the lens for half a second.
+TEST(Odometry, SaysSoWhileItSeesNothingAndFindsItsWayAgain) {
+  const RoomRig rig;
+  Drive run(rig);
+  for (int i = 0; i < 8; ++i) run.feed(rig.frame(i));
+  for (int i = 8; i < 13; ++i) {
+    SynchronizedFrame dark = rig.frame(i);
+    dark.grey = black();
+    const FrameOutcome outcome = run.feed(dark);
+    EXPECT_EQ(outcome.status, Status::kPredicted) << i;
+    EXPECT_LT(shift_between(outcome.T_world_camera, rig.T_world_camera(i)), 0.03) << i;
+  }
+  int tracked = 0;
+  for (int i = 13; i < 20; ++i) {
+    const FrameOutcome outcome = run.feed(rig.frame(i));
+    tracked += outcome.status == Status::kTracked ? 1 : 0;
+    EXPECT_LT(shift_between(outcome.T_world_camera, rig.T_world_camera(i)), 0.05) << i;
+  }
+  EXPECT_GE(tracked, 6);
+}
+
+// The start of a recording, with the lens cap on.
+TEST(Odometry, ReportsNoMotionFromTheDark) {
+  const RoomRig rig;
+  Drive run(rig);
+  for (int i = 0; i < 5; ++i) {
+    SynchronizedFrame dark = rig.frame(i);
+    dark.grey = black();
+    EXPECT_NE(run.feed(dark).status, Status::kTracked) << i;
+  }
+  int tracked = 0;
+  for (int i = 5; i < 12; ++i) tracked += run.feed(rig.frame(i)).status == Status::kTracked ? 1 : 0;
+  EXPECT_GE(tracked, 5);
+}
+
+TEST(Odometry, MakesAKeyframeInTimeWhileStandingStill) {
+  RoomRig rig;
+  rig.speed_m_s = 0.0;
+  rig.turn_rad_s = 0.0;
+  OdometryConfig config = small_config();
+  config.keyframes.max_age_s = 0.5;
+  Drive run(rig, config);
+  for (int i = 0; i < 17; ++i) {
+    SynchronizedFrame frame = rig.frame(0);
+    frame.sequence = static_cast<std::uint64_t>(i);
+    frame.exposure = HostTime(std::chrono::milliseconds(100 * i));
+    run.feed(frame);
+  }
+  EXPECT_EQ(run.keyframes, (std::vector<std::uint64_t>{0, 1, 6, 11, 16}));
+}
+
+TEST(Odometry, MakesAKeyframeWhereTooLittleIsSharedAndNotBefore) {
+  RoomRig rig;
+  rig.turn_rad_s = 0.6;
+  rig.speed_m_s = 0.0;
+  OdometryConfig config = small_config();
+  config.keyframes.max_age_s = 1e9;
+  Drive run(rig, config);
+  for (int i = 0; i < 20; ++i) {
+    const FrameOutcome outcome = run.feed(rig.frame(i));
+    ASSERT_NE(outcome.status, Status::kPredicted) << i;
+    if (i > 1) {
+      EXPECT_EQ(outcome.becomes_keyframe, outcome.tracking.visible_ratio < 0.8) << i;
+    }
+  }
+  EXPECT_GE(run.keyframes.size(), 4U);
+  EXPECT_LE(run.keyframes.size(), 9U);
+}
+
+TEST(Odometry, KeepsTheWindowSmallAndRetiresInOrder) {
+  const RoomRig rig;
+  OdometryConfig config = small_config();
+  config.keyframes.max_age_s = 0.2;
+  config.window.size = 3;
+  Drive run(rig, config);
+  for (int i = 0; i < 24; ++i) {
+    run.feed(rig.frame(i));
+    ASSERT_LE(run.keyframes.size() - run.retired.size(), 3U);
+    if (i > 1) {
+      ASSERT_GE(run.keyframes.size() - run.retired.size(), 2U);
+    }
+  }
+  run.finish();
+  ASSERT_EQ(run.retired.size(), run.keyframes.size());
+  for (std::size_t i = 0; i < run.retired.size(); ++i) {
+    const RetiredKeyframe& keyframe = run.retired[i];
+    EXPECT_EQ(keyframe.sequence, run.keyframes[i]);
+    EXPECT_LT(shift_between(keyframe.T_world_camera,
+                            rig.T_world_camera(static_cast<int>(keyframe.sequence))),
+              0.01);
+    EXPECT_GT(keyframe.cloud_camera.size(), 1000U);
+    ASSERT_EQ(keyframe.successor.has_value(), i + 1 < run.retired.size());
+    if (!keyframe.successor) continue;
+    EXPECT_EQ(keyframe.successor->sequence, run.keyframes[i + 1]);
+    EXPECT_EQ(Eigen::LLT<Matrix6d>(keyframe.successor->information).info(), Eigen::Success);
+    const Eigen::Isometry3d T_true =
+        rig.T_world_camera(static_cast<int>(keyframe.sequence)).inverse() *
+        rig.T_world_camera(static_cast<int>(keyframe.successor->sequence));
+    EXPECT_LT(shift_between(keyframe.successor->T_keyframe_successor, T_true), 3e-3);
+  }
+}
+
+TEST(Odometry, ColoursTheCloudFromTheImage) {
+  const RoomRig rig;
+  for (const bool color : {false, true}) {
+    Drive run(rig);
+    SynchronizedFrame frame = rig.frame(0);
+    if (color) {
+      frame.color = ColorImage{160, 120, std::vector<std::uint8_t>(3UL * 160 * 120)};
+      for (std::size_t i = 0; i < frame.color->rgb.size(); i += 3) frame.color->rgb[i + 1] = 200;
+    }
+    run.feed(frame);
+    run.finish();
+    ASSERT_EQ(run.retired.size(), 1U);
+    for (const CloudPoint& point : run.retired[0].cloud_camera) {
+      Eigen::Vector2d pixel;
+      ASSERT_TRUE(rig.room.camera().project(point.p_camera.cast<double>(), pixel));
+      const std::uint8_t grey = frame.grey.at(static_cast<int>(std::lround(pixel.x())),
+                                              static_cast<int>(std::lround(pixel.y())));
+      ASSERT_NEAR(point.rgb[0], color ? 0 : grey, 25);  // on the border between two pixels
+      if (color) {
+        ASSERT_EQ(point.rgb[1], 200);
+      }
+      ASSERT_EQ(point.intensity, 0.5F);
+    }
+  }
+}
+
+TEST(Odometry, SurvivesTimeThatGoesBackwards) {
+  const RoomRig rig;
+  Drive run(rig);
+  for (int i = 0; i < 5; ++i) run.feed(rig.frame(i));
+  SynchronizedFrame late = rig.frame(5);
+  late.exposure = HostTime(std::chrono::milliseconds(150));
+  EXPECT_TRUE(run.feed(late).T_world_camera.matrix().allFinite());
+  const FrameOutcome next = run.feed(rig.frame(6));
+  EXPECT_EQ(next.status, Status::kTracked);
+  EXPECT_LT(shift_between(next.T_world_camera, rig.T_world_camera(6)), 0.01);
+}
+
+TEST(Odometry, GivesTheSameBytesEveryTime) {
+  const RoomRig rig;
+  std::vector<Eigen::Matrix4d> first;
+  for (const int repetition : {0, 1}) {
+    Drive run(rig);
+    for (int i = 0; i < 15; ++i) {
+      const Eigen::Matrix4d T = run.feed(rig.frame(i)).T_world_camera.matrix();
+      if (repetition == 0) {
+        first.push_back(T);
+      } else {
+        EXPECT_EQ(T, first[static_cast<std::size_t>(i)]) << i;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sparsight

@@ -1,0 +1,85 @@
+#include "slam/tracking/motion_model.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "tests/slam/random_values.h"
+
+namespace sparsight {
+namespace {
+
+HostTime at(double seconds) {
+  return HostTime(std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9)));
+}
+
+double distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  return (a.matrix() - b.matrix()).norm();
+}
+
+TEST(MotionModel, ExpectsNothingToMoveBeforeItHasSeenMotion) {
+  MotionModel model;
+  EXPECT_EQ(distance(model.predict_T_keyframe_camera(at(5.0)), Eigen::Isometry3d::Identity()), 0.0);
+  const Eigen::Isometry3d T = exp_se3(Vector6d::Constant(0.1));
+  model.observe(at(1.0), T);
+  EXPECT_FALSE(model.twist().has_value());
+  EXPECT_EQ(distance(model.predict_T_keyframe_camera(at(5.0)), T), 0.0);
+}
+
+RC_GTEST_PROP(MotionModel, ContinuesAConstantTwistOverUnevenTimes, ()) {
+  const Vector6d twist = any_increment(2.0, 20.0);
+  MotionModel model;
+  model.observe(at(10.0), exp_se3(twist * 0.0));
+  model.observe(at(10.1), exp_se3(twist * 0.1));
+  model.observe(at(10.35), exp_se3(twist * 0.35));
+  RC_ASSERT((*model.twist() - twist).norm() < 1e-6);
+  RC_ASSERT(distance(model.predict_T_keyframe_camera(at(10.5)), exp_se3(twist * 0.5)) < 1e-6);
+}
+
+TEST(MotionModel, GoesOnAcrossANewKeyframe) {
+  Vector6d twist;
+  twist << 0.0, 0.3, 0.0, 0.0, 0.0, 8.0;
+  MotionModel model;
+  model.observe(at(0.0), Eigen::Isometry3d::Identity());
+  model.observe(at(0.1), exp_se3(twist * 0.1));
+  model.rebase(at(0.1));
+  EXPECT_LT(distance(model.predict_T_keyframe_camera(at(0.2)), exp_se3(twist * 0.1)), 1e-9);
+  model.observe(at(0.2), exp_se3(twist * 0.1));
+  EXPECT_LT((*model.twist() - twist).norm(), 1e-9);
+}
+
+// A keyframe may be made of a frame that could not be tracked: nothing was observed since.
+TEST(MotionModel, StartsFromAKeyframeThatWasNotObserved) {
+  Vector6d twist;
+  twist << 0.0, 0.3, 0.0, 0.0, 0.0, 8.0;
+  MotionModel model;
+  model.observe(at(0.0), Eigen::Isometry3d::Identity());
+  model.observe(at(0.1), exp_se3(twist * 0.1));
+  model.rebase(at(0.5));
+  EXPECT_LT(distance(model.predict_T_keyframe_camera(at(0.6)), exp_se3(twist * 0.1)), 1e-9);
+  model.observe(at(0.6), exp_se3(twist * 0.1));
+  EXPECT_LT((*model.twist() - twist).norm(), 1e-9);
+}
+
+TEST(MotionModel, KeepsItsVelocityWhereTimeDoesNotAdvance) {
+  Vector6d twist;
+  twist << 0.0, 0.0, 0.1, 1.0, 0.0, 0.0;
+  MotionModel model;
+  model.observe(at(0.0), Eigen::Isometry3d::Identity());
+  model.observe(at(0.1), exp_se3(twist * 0.1));
+  model.observe(at(0.1), exp_se3(twist * 0.2));
+  EXPECT_LT((*model.twist() - twist).norm(), 1e-9);
+  EXPECT_TRUE(model.predict_T_keyframe_camera(at(0.05)).matrix().allFinite());
+}
+
+TEST(MotionModel, CanForgetItsVelocity) {
+  MotionModel model;
+  model.observe(at(0.0), Eigen::Isometry3d::Identity());
+  const Eigen::Isometry3d T = exp_se3(Vector6d::Constant(0.1));
+  model.observe(at(0.1), T);
+  model.forget_velocity();
+  EXPECT_FALSE(model.twist().has_value());
+  EXPECT_EQ(distance(model.predict_T_keyframe_camera(at(0.2)), T), 0.0);
+}
+
+}  // namespace
+}  // namespace sparsight
