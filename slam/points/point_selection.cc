@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "slam/points/surface_slope.h"
 #include "slam/points/visibility.h"
@@ -34,7 +35,7 @@ class SphereBins {
 
   std::size_t of(const Eigen::Vector3f& p) const {
     const double azimuth = std::atan2(p.x(), p.z()) + M_PI_2;
-    const double elevation = std::atan2(p.y(), std::hypot(p.x(), p.z())) + M_PI_2;
+    const double elevation = std::atan2(p.y(), std::sqrt(p.x() * p.x() + p.z() * p.z())) + M_PI_2;
     return static_cast<std::size_t>(static_cast<int>(elevation / bin_rad_) * across_ +
                                     static_cast<int>(azimuth / bin_rad_));
   }
@@ -69,13 +70,14 @@ std::vector<SelectedPoint> select_points(const std::vector<CameraReturn>& return
     if (gradient2 > candidate.gradient2) candidate = {.index = i, .gradient2 = gradient2};
   }
 
-  const SurfaceSlopes slopes(returns, camera);
+  std::optional<SurfaceSlopes> slopes;
+  if (config.surface_slope) slopes.emplace(returns, camera);
   std::vector<SelectedPoint> points;
   for (const Candidate& candidate : best) {
     if (candidate.gradient2 < 0) continue;
     const CameraReturn& r = returns[candidate.index];
     points.push_back({.p_camera = r.p_camera, .pixel = r.pixel});
-    if (config.surface_slope) points.back().inverse_depth_slope = slopes.at(candidate.index);
+    if (slopes) points.back().inverse_depth_slope = slopes->at(candidate.index);
   }
   return points;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace sparsight {
 namespace {
@@ -21,9 +22,7 @@ constexpr float kHiddenShare = 0.85F;            // nearer than this share of th
 // a LiDAR that stand 0.3 m apart: that is left to the depth edges.
 constexpr float kHiddenInverseDepth = 2.0F * static_cast<float>(kCellRad) / 1.2F;
 
-bool jump_between(const CameraReturn& a, const CameraReturn& b) {
-  const float range_a = a.p_camera.norm();
-  const float range_b = b.p_camera.norm();
+bool jump_between(const CameraReturn& a, float range_a, const CameraReturn& b, float range_b) {
   const float nearer = std::min(range_a, range_b);
   if (a.p_camera.dot(b.p_camera) < kNeighborCosine * range_a * range_b) return false;
   return std::abs(range_a - range_b) > std::max(kRangeNoise, kJumpShare * nearer);
@@ -33,10 +32,12 @@ bool jump_between(const CameraReturn& a, const CameraReturn& b) {
 
 std::vector<bool> on_depth_edge(const std::vector<CameraReturn>& returns) {
   std::vector<bool> edge(returns.size(), false);
-  for (std::size_t i = 0; i + 1 < returns.size(); ++i) {
-    if (returns[i].ring != returns[i + 1].ring || !jump_between(returns[i], returns[i + 1]))
-      continue;
-    edge[i] = edge[i + 1] = true;
+  float range = 0.0F;
+  for (std::size_t i = 0; i < returns.size(); ++i) {
+    const float last_range = std::exchange(range, returns[i].p_camera.norm());
+    if (i == 0 || returns[i - 1].ring != returns[i].ring) continue;
+    if (!jump_between(returns[i - 1], last_range, returns[i], range)) continue;
+    edge[i - 1] = edge[i] = true;
   }
   return edge;
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "slam/tracking/photometric_kernel.h"
 
@@ -265,6 +266,7 @@ HWY_INLINE void accumulate_block(const PatchSet& patches, const Linearization& l
   const VF r = hn::LoadU(f, l.residual.data() + at);
   const VF w = total_weight(weights, at, r, dof, inverse_sigma2);
   VF J[kSize];
+#pragma GCC unroll 8
   for (int k = 0; k < 6; ++k) J[k] = hn::LoadU(f, l.J[k].data() + at);
   J[6] = hn::Neg(hn::LoadU(f, patches.intensity.data() + at));
   J[7] = hn::Set(f, -1.0F);
@@ -286,12 +288,27 @@ void normal_equation_sums(const PatchSet& patches, const Linearization& l, const
   const F f;
   const std::size_t step = hn::Lanes(f);
   for (std::size_t lane = 0; lane < kSumLanes; lane += step) {
+    // Every loop over the sums is unrolled, or the compiler keeps them in memory.
     VF sums[kNormalSums];
-    for (VF& sum : sums) sum = hn::Zero(f);
+#pragma GCC unroll 64
+    for (std::size_t k = 0; k < kNormalSums; ++k) sums[k] = hn::Zero(f);
     for (std::size_t at = lane; at < l.residual.size(); at += kSumLanes) {
       accumulate_block(patches, l, weights, at, dof, inverse_sigma2, sums);
     }
+#pragma GCC unroll 64
     for (std::size_t k = 0; k < kNormalSums; ++k) hn::StoreU(sums[k], f, out[k].data() + lane);
+  }
+}
+
+void column_sums(const std::vector<float>& values, LaneSums& out) {
+  const F f;
+  const std::size_t step = hn::Lanes(f);
+  for (std::size_t lane = 0; lane < kSumLanes; lane += step) {
+    VF sum = hn::Zero(f);
+    for (std::size_t at = lane; at < values.size(); at += kSumLanes) {
+      sum = hn::Add(sum, hn::LoadU(f, values.data() + at));
+    }
+    hn::StoreU(sum, f, out.data() + lane);
   }
 }
 

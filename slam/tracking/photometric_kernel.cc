@@ -18,6 +18,7 @@ HWY_EXPORT(linearize_entries);
 HWY_EXPORT(weighted_square_sums);
 HWY_EXPORT(log_likelihood_sums);
 HWY_EXPORT(normal_equation_sums);
+HWY_EXPORT(column_sums);
 
 namespace {
 
@@ -111,14 +112,15 @@ double robust_cost(const Linearization& linearization, double student_t_dof, dou
   return (student_t_dof + 1.0) * sigma * sigma * total(costs) / weight;
 }
 
+double weight_sum(const std::vector<float>& weights) {
+  LaneSums sums;
+  HWY_DYNAMIC_DISPATCH(column_sums)(weights, sums);
+  return total(sums);
+}
+
 double visible_share(const PatchSet& patches, const Linearization& linearization) {
-  double visible = 0.0;
-  double all = 0.0;
-  for (std::size_t i = 0; i < patches.entries(); ++i) {
-    visible += static_cast<double>(linearization.weight[i]);
-    all += static_cast<double>(patches.weight[i]);
-  }
-  return all > 0.0 ? visible / all : 0.0;
+  const double all = weight_sum(patches.weight);
+  return all > 0.0 ? weight_sum(linearization.weight) / all : 0.0;
 }
 
 NormalEquations accumulate(const PatchSet& patches, const Linearization& linearization,

@@ -53,6 +53,9 @@ double estimate_sigma(const Linearization& linearization, double student_t_dof, 
 // that eq. (4) descends for a given sigma. Infinite if no entry has weight.
 double robust_cost(const Linearization& linearization, double student_t_dof, double sigma);
 
+// Sum of the weights of a PatchSet or a Linearization.
+double weight_sum(const std::vector<float>& weights);
+
 // Share of the patch set's weight that projects into the image.
 double visible_share(const PatchSet& patches, const Linearization& linearization);
 

@@ -1,5 +1,6 @@
 #include "slam/tracking/robust_model.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,39 +10,30 @@
 namespace sparsight {
 namespace {
 
-struct PatchSum {
-  double squares = 0.0;  // sum of w r^2
-  double pixels = 0.0;   // sum of w
+// One column per patch.
+using PatchColumns =
+    Eigen::Map<const Eigen::Array<float, static_cast<int>(kPatternSize), Eigen::Dynamic>>;
+
+PatchColumns columns_of(const std::vector<float>& entries) {
+  return {entries.data(), static_cast<int>(kPatternSize),
+          static_cast<Eigen::Index>(entries.size() / kPatternSize)};
+}
+
+// One element per patch.
+struct PatchSums {
+  Eigen::ArrayXd squares;  // sum of w r^2
+  Eigen::ArrayXd pixels;   // sum of w
+
+  explicit PatchSums(const Linearization& l) {
+    const PatchColumns weight = columns_of(l.weight);
+    const PatchColumns residual = columns_of(l.residual);
+    squares = (weight * residual.square()).colwise().sum().transpose().cast<double>();
+    pixels = weight.colwise().sum().transpose().cast<double>();
+  }
+  Eigen::ArrayXd weights(double dof, double sigma) const {
+    return (dof + pixels) / (dof + squares / (sigma * sigma));
+  }
 };
-
-PatchSum sum_of_patch(const Linearization& l, std::size_t first) {
-  float squares = 0.0F;
-  float pixels = 0.0F;
-  for (std::size_t i = first; i < first + kPatternSize; ++i) {
-    squares += l.weight[i] * l.residual[i] * l.residual[i];
-    pixels += l.weight[i];
-  }
-  return {.squares = static_cast<double>(squares), .pixels = static_cast<double>(pixels)};
-}
-
-std::vector<PatchSum> patch_sums(const Linearization& l) {
-  std::vector<PatchSum> sums;
-  sums.reserve(l.residual.size() / kPatternSize);
-  for (std::size_t first = 0; first + kPatternSize <= l.residual.size(); first += kPatternSize) {
-    sums.push_back(sum_of_patch(l, first));
-  }
-  return sums;
-}
-
-double patch_weight(const PatchSum& patch, double dof, double sigma2) {
-  return (dof + patch.pixels) / (dof + patch.squares / sigma2);
-}
-
-double total_pixels(const std::vector<PatchSum>& patches) {
-  double pixels = 0.0;
-  for (const PatchSum& patch : patches) pixels += patch.pixels;
-  return pixels;
-}
 
 }  // namespace
 
@@ -52,15 +44,13 @@ double estimate_sigma(const Linearization& linearization, const PhotometryConfig
   }
   constexpr int kMaxIterations = 30;
   constexpr double kRelativeTolerance = 1e-3;
-  const std::vector<PatchSum> patches = patch_sums(linearization);
-  const double pixels = total_pixels(patches);
+  const PatchSums patches(linearization);
+  const double pixels = patches.pixels.sum();
   double sigma = std::max(sigma_start, kMinSigma);
   if (pixels <= 0.0) return sigma;
   for (int i = 0; i < kMaxIterations; ++i) {
-    double squares = 0.0;
-    for (const PatchSum& patch : patches) {
-      squares += patch_weight(patch, photometry.student_t_dof, sigma * sigma) * patch.squares;
-    }
+    const double squares =
+        (patches.weights(photometry.student_t_dof, sigma) * patches.squares).sum();
     const double updated = std::max(std::sqrt(squares / pixels), kMinSigma);
     const bool settled = std::abs(updated - sigma) < kRelativeTolerance * sigma;
     sigma = updated;
@@ -75,13 +65,12 @@ double robust_cost(const Linearization& linearization, const PhotometryConfig& p
     return robust_cost(linearization, photometry.student_t_dof, sigma);
   }
   const double dof = photometry.student_t_dof;
-  double cost = 0.0;
-  double pixels = 0.0;
-  for (const PatchSum& patch : patch_sums(linearization)) {
-    cost += 0.5 * (dof + patch.pixels) * std::log1p(patch.squares / (dof * sigma * sigma));
-    pixels += patch.pixels;
-  }
-  return pixels > 0.0 ? sigma * sigma * cost / pixels : std::numeric_limits<double>::infinity();
+  const PatchSums patches(linearization);
+  const double pixels = patches.pixels.sum();
+  if (pixels <= 0.0) return std::numeric_limits<double>::infinity();
+  const double cost =
+      ((dof + patches.pixels) * (1.0 + patches.squares / (dof * sigma * sigma)).log()).sum();
+  return 0.5 * sigma * sigma * cost / pixels;
 }
 
 NormalEquations accumulate(const PatchSet& patches, const Linearization& linearization,
@@ -89,12 +78,12 @@ NormalEquations accumulate(const PatchSet& patches, const Linearization& lineari
   if (!photometry.patch_weights) {
     return accumulate(patches, linearization, photometry.student_t_dof, sigma);
   }
-  std::vector<float> weights = linearization.weight;
-  for (std::size_t first = 0; first + kPatternSize <= weights.size(); first += kPatternSize) {
-    const auto weight = static_cast<float>(
-        patch_weight(sum_of_patch(linearization, first), photometry.student_t_dof, sigma * sigma));
-    for (std::size_t i = first; i < first + kPatternSize; ++i) weights[i] *= weight;
-  }
+  const Eigen::ArrayXf patch_weights =
+      PatchSums(linearization).weights(photometry.student_t_dof, sigma).cast<float>();
+  std::vector<float> weights(linearization.weight.size());
+  Eigen::Map<Eigen::Array<float, static_cast<int>(kPatternSize), Eigen::Dynamic>>(
+      weights.data(), static_cast<int>(kPatternSize), patch_weights.size()) =
+      columns_of(linearization.weight).rowwise() * patch_weights.transpose();
   return accumulate_weighted(patches, linearization, weights);
 }
 

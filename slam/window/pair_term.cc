@@ -32,7 +32,7 @@ PairTerm pair_term(const Keyframe& host, const Keyframe& target, const CameraMod
   term.b = information_scale * n.b.head<6>();
   if (photometry.affine_brightness) eliminate_brightness(n, information_scale, term);
 
-  for (const float weight : workspace.current.weight) term.pixels += static_cast<double>(weight);
+  term.pixels = weight_sum(workspace.current.weight);
   term.energy = term.pixels * term.at.cost * information_scale;
   return term;
 }

@@ -1,5 +1,6 @@
 #include "slam/tracking/patch_correlation.h"
 #include "slam/tracking/photometric_kernel.h"
+#include "slam/tracking/robust_model.h"
 #include "slam/tracking/tracker.h"
 #include "tests/benchmarks/made_drive.h"
 
@@ -83,6 +84,19 @@ void robust_cost_of_patches(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(robust_cost(s.linearization, 5.0, 8.0));
 }
 BENCHMARK(robust_cost_of_patches)->Apply(each_drive);
+
+// Scale, cost and normal equations with one weight per patch.
+void weigh_per_patch(benchmark::State& state) {
+  Scenario s(state);
+  PhotometryConfig photometry = s.drive.photometry;
+  photometry.patch_weights = true;
+  for (auto _ : state) {
+    const double sigma = estimate_sigma(s.linearization, photometry, 5.0);
+    benchmark::DoNotOptimize(robust_cost(s.linearization, photometry, sigma));
+    benchmark::DoNotOptimize(accumulate(s.patches(), s.linearization, photometry, sigma));
+  }
+}
+BENCHMARK(weigh_per_patch)->Apply(each_drive);
 
 void agreement_of_patches(benchmark::State& state) {
   Scenario s(state);
