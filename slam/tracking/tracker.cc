@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstddef>
+#include <cstdlib>
 
 #include "slam/tracking/patch_correlation.h"
 #include "slam/tracking/starting_motions.h"
@@ -55,7 +55,7 @@ class VisitedPlaces {
 };
 
 // A start that finds more than this share of the patches is as good as right.
-static const double kFoundAtStart = std::getenv("KF")?std::atof(std::getenv("KF")):0.4;
+static const double kFoundAtStart = std::getenv("KF") ? std::atof(std::getenv("KF")) : 0.4;
 
 PhotometryConfig per_pixel(PhotometryConfig photometry) {
   photometry.patch_weights = false;
