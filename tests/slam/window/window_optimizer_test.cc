@@ -205,6 +205,7 @@ TEST(WindowOptimizer, PriorDoesNotHoldTheWholeWindow) {
     ASSERT_TRUE(keyframe->T_world_camera_first.has_value());
     keyframe->T_world_camera = keyframe->T_world_camera * exp_se3(Vector6d::Constant(0.003));
   }
+  window.optimizer.optimize();  // looks at them anew
   window.marginalize();
 
   const auto energy_after = [&](const Eigen::Isometry3d& T_new_old) {
