@@ -40,7 +40,7 @@ Result<ImageSize> image_size(const ImageFolder& images) {
   Error last{};
   for (const auto& [number, file] : images.images) {
     auto image = read_file_bytes(file).and_then(
-        [&](const std::string& bytes) { return decode_image(bytes, file.string()); });
+        [&path = file](const std::string& bytes) { return decode_image(bytes, path.string()); });
     if (image) {
       ++votes[{image->grey.width, image->grey.height}];
       if (++read == kEnough) break;

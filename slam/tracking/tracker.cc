@@ -14,10 +14,10 @@ namespace {
 // that level's minimum, and follows to the finest those that lead to different places and are not
 // clearly worse than the best.
 constexpr std::size_t kRankedPatches = 100;
-constexpr std::size_t kExamined = 6;
-constexpr int kFollowed = 3;
+constexpr std::size_t kExamined = 12;
+constexpr int kFollowed = 4;
 constexpr double kSamePlacePx = 2.0;  // at the coarsest level
-constexpr double kHopeless = 0.1;     // of correlation
+constexpr double kHopeless = 0.25;    // of the share found
 
 Alignment start_at(const Eigen::Isometry3d& T_keyframe_camera, const Brightness& brightness) {
   Alignment at;
@@ -173,8 +173,8 @@ std::vector<RankedStart> Tracker::ranked_starts(const Keyframe& keyframe, const 
   const double share = static_cast<double>(sample.patches) /
                        static_cast<double>(std::max<std::size_t>(1, patches.patches));
   return rank_starts(starts, sample, image.level(coarsest), cameras_[level],
-                     keyframe.mean_inverse_depth, share * config_.min_points, photometry_,
-                     workspace_);
+                     keyframe.mean_inverse_depth, share * config_.min_points,
+                     per_pixel(photometry_), workspace_);
 }
 
 TrackingResult Tracker::search(const Keyframe& keyframe, const ImagePyramid& image,
