@@ -53,7 +53,7 @@ EvaluationOptions options_of(const EvaluateArguments& arguments) {
       std::chrono::duration<double>(arguments.max_time_difference_s));
   auto& lengths = options.segments.lengths_m;
   std::ranges::sort(lengths);
-  lengths.erase(std::ranges::unique(lengths).begin(), lengths.end());
+  lengths.erase(std::unique(lengths.begin(), lengths.end()), lengths.end());
   return options;
 }
 
