@@ -1,6 +1,7 @@
 #include "slam/odometry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -15,8 +16,8 @@ constexpr int kPatientFrames = 3;     // untracked frames before a new keyframe 
 
 CloudPoint colored(const CameraReturn& r, const SynchronizedFrame& frame) {
   CloudPoint point{.p_camera = r.p_camera, .intensity = r.intensity};
-  const auto u = static_cast<int>(r.pixel.x() + 0.5F);
-  const auto v = static_cast<int>(r.pixel.y() + 0.5F);
+  const auto u = static_cast<int>(std::lround(r.pixel.x()));
+  const auto v = static_cast<int>(std::lround(r.pixel.y()));
   if (frame.color && !frame.color->empty()) {
     const std::size_t at = 3 * (static_cast<std::size_t>(v) * frame.color->width + u);
     std::copy_n(frame.color->rgb.begin() + static_cast<std::ptrdiff_t>(at), 3, point.rgb.begin());
@@ -71,14 +72,13 @@ FrameOutcome Odometry::State::follow(const SynchronizedFrame& frame) {
   const Keyframe& keyframe = window.latest();
   FrameOutcome result;
   result.keyframe_sequence = keyframe.sequence;
-  const TrackingStart start{
-      .T_keyframe_previous = motion.T_keyframe_last(),
-      .T_keyframe_predicted = motion.predict_T_keyframe_camera(frame.exposure),
-      .brightness = brightness,
-      .error_px = start_error_px,
-      .sigma_grey = sigma_grey,
-      .found_share = found_share,
-      .seconds_since_previous = motion.seconds_since_last(frame.exposure)};
+  const TrackingStart start{.T_keyframe_previous = motion.last_in_keyframe(),
+                            .T_keyframe_predicted = motion.predict_in_keyframe(frame.exposure),
+                            .brightness = brightness,
+                            .error_px = start_error_px,
+                            .sigma_grey = sigma_grey,
+                            .found_share = found_share,
+                            .seconds_since_previous = motion.seconds_since_last(frame.exposure)};
   if (!pyramid.empty()) result.tracking = tracker.track(keyframe, pyramid, start);
   if (result.tracking.ok()) {
     result.status = FrameOutcome::Status::kTracked;

@@ -88,6 +88,7 @@ Result<FolderIndex> index_kitti_raw(const fs::path& folder, std::optional<int> c
 
   const std::vector<std::uint64_t> scan = scan_of_each_image(folder, *sweeps, *arrivals);
   std::vector<std::optional<HostTime>> triggers;
+  triggers.reserve(scan.size());
   for (const std::uint64_t number : scan) triggers.push_back(sweeps->trigger(number));
   const auto exposures =
       require_increasing(exposure_times(*arrivals, triggers), times_file.string());

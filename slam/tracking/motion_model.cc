@@ -21,7 +21,7 @@ std::optional<double> MotionModel::seconds_since_last(HostTime exposure) const {
   return to_seconds(exposure - *last_exposure_);
 }
 
-Eigen::Isometry3d MotionModel::predict_T_keyframe_camera(HostTime exposure) const {
+Eigen::Isometry3d MotionModel::predict_in_keyframe(HostTime exposure) const {
   if (!twist_ || !last_exposure_) return T_keyframe_last_;
   return T_keyframe_last_ * exp_se3(*twist_ * to_seconds(exposure - *last_exposure_));
 }

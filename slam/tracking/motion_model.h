@@ -20,10 +20,10 @@ class MotionModel {
 
   // Camera-frame velocity [rad/s, m/s]; nothing before two frames were observed.
   const std::optional<Vector6d>& twist() const { return twist_; }
-  const Eigen::Isometry3d& T_keyframe_last() const { return T_keyframe_last_; }
+  const Eigen::Isometry3d& last_in_keyframe() const { return T_keyframe_last_; }
   // Nothing before the velocity is known.
   std::optional<double> seconds_since_last(HostTime exposure) const;
-  Eigen::Isometry3d predict_T_keyframe_camera(HostTime exposure) const;
+  Eigen::Isometry3d predict_in_keyframe(HostTime exposure) const;
 
  private:
   std::optional<HostTime> last_exposure_;

@@ -30,7 +30,7 @@ Quadratic without_first(const Quadratic& energy) {
 
 Matrix6d information_of_second(const Quadratic& energy) {
   const Eigen::Index others = energy.b.size() - 12;
-  const Matrix6d H_ss = energy.H.block<6, 6>(6, 6);
+  Matrix6d H_ss = energy.H.block<6, 6>(6, 6);
   if (others <= 0) return H_ss;
   const Eigen::MatrixXd H_os = energy.H.block(12, 6, others, 6);
   const Matrix6d information =

@@ -102,11 +102,11 @@ Quadratic WindowOptimizer::energy_about_current(const std::vector<Pair>& pairs) 
     const int h = 6 * pair.host;
     const int t = 6 * pair.target;
     const Matrix6d A = d_relative_d_host(pair);
-    const Matrix6d H_A = pair.term.H * A;
-    sum.H.block<6, 6>(h, h) += A.transpose() * H_A;
+    const Matrix6d weighted = pair.term.H * A;
+    sum.H.block<6, 6>(h, h) += A.transpose() * weighted;
     sum.H.block<6, 6>(t, t) += pair.term.H;
-    sum.H.block<6, 6>(t, h) -= H_A;
-    sum.H.block<6, 6>(h, t) -= H_A.transpose();
+    sum.H.block<6, 6>(t, h) -= weighted;
+    sum.H.block<6, 6>(h, t) -= weighted.transpose();
     sum.b.segment<6>(h) += A.transpose() * pair.term.b;
     sum.b.segment<6>(t) -= pair.term.b;
   }

@@ -18,11 +18,11 @@ double distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 
 TEST(MotionModel, ExpectsNothingToMoveBeforeItHasSeenMotion) {
   MotionModel model;
-  EXPECT_EQ(distance(model.predict_T_keyframe_camera(at(5.0)), Eigen::Isometry3d::Identity()), 0.0);
+  EXPECT_EQ(distance(model.predict_in_keyframe(at(5.0)), Eigen::Isometry3d::Identity()), 0.0);
   const Eigen::Isometry3d T = exp_se3(Vector6d::Constant(0.1));
   model.observe(at(1.0), T);
   EXPECT_FALSE(model.twist().has_value());
-  EXPECT_EQ(distance(model.predict_T_keyframe_camera(at(5.0)), T), 0.0);
+  EXPECT_EQ(distance(model.predict_in_keyframe(at(5.0)), T), 0.0);
 }
 
 RC_GTEST_PROP(MotionModel, ContinuesAConstantTwistOverUnevenTimes, ()) {
@@ -32,7 +32,7 @@ RC_GTEST_PROP(MotionModel, ContinuesAConstantTwistOverUnevenTimes, ()) {
   model.observe(at(10.1), exp_se3(twist * 0.1));
   model.observe(at(10.35), exp_se3(twist * 0.35));
   RC_ASSERT((*model.twist() - twist).norm() < 1e-6);
-  RC_ASSERT(distance(model.predict_T_keyframe_camera(at(10.5)), exp_se3(twist * 0.5)) < 1e-6);
+  RC_ASSERT(distance(model.predict_in_keyframe(at(10.5)), exp_se3(twist * 0.5)) < 1e-6);
 }
 
 TEST(MotionModel, GoesOnAcrossANewKeyframe) {
@@ -42,7 +42,7 @@ TEST(MotionModel, GoesOnAcrossANewKeyframe) {
   model.observe(at(0.0), Eigen::Isometry3d::Identity());
   model.observe(at(0.1), exp_se3(twist * 0.1));
   model.rebase(at(0.1));
-  EXPECT_LT(distance(model.predict_T_keyframe_camera(at(0.2)), exp_se3(twist * 0.1)), 1e-9);
+  EXPECT_LT(distance(model.predict_in_keyframe(at(0.2)), exp_se3(twist * 0.1)), 1e-9);
   model.observe(at(0.2), exp_se3(twist * 0.1));
   EXPECT_LT((*model.twist() - twist).norm(), 1e-9);
 }
@@ -55,7 +55,7 @@ TEST(MotionModel, StartsFromAKeyframeThatWasNotObserved) {
   model.observe(at(0.0), Eigen::Isometry3d::Identity());
   model.observe(at(0.1), exp_se3(twist * 0.1));
   model.rebase(at(0.5));
-  EXPECT_LT(distance(model.predict_T_keyframe_camera(at(0.6)), exp_se3(twist * 0.1)), 1e-9);
+  EXPECT_LT(distance(model.predict_in_keyframe(at(0.6)), exp_se3(twist * 0.1)), 1e-9);
   model.observe(at(0.6), exp_se3(twist * 0.1));
   EXPECT_LT((*model.twist() - twist).norm(), 1e-9);
 }
@@ -68,7 +68,7 @@ TEST(MotionModel, KeepsItsVelocityWhereTimeDoesNotAdvance) {
   model.observe(at(0.1), exp_se3(twist * 0.1));
   model.observe(at(0.1), exp_se3(twist * 0.2));
   EXPECT_LT((*model.twist() - twist).norm(), 1e-9);
-  EXPECT_TRUE(model.predict_T_keyframe_camera(at(0.05)).matrix().allFinite());
+  EXPECT_TRUE(model.predict_in_keyframe(at(0.05)).matrix().allFinite());
 }
 
 TEST(MotionModel, CanForgetItsVelocity) {
@@ -78,7 +78,7 @@ TEST(MotionModel, CanForgetItsVelocity) {
   model.observe(at(0.1), T);
   model.forget_velocity();
   EXPECT_FALSE(model.twist().has_value());
-  EXPECT_EQ(distance(model.predict_T_keyframe_camera(at(0.2)), T), 0.0);
+  EXPECT_EQ(distance(model.predict_in_keyframe(at(0.2)), T), 0.0);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ PatchAgreement agreement(const SineRoom& room, const PatchSet& patches, const Gr
 
 class PatchCorrelation : public testing::Test {
  protected:
-  const SineRoom room_;
+  const SineRoom room_{};
   const Eigen::Isometry3d T_origin_ = Eigen::Isometry3d::Identity();
   const PatchSet patches_ = room_.keyframe(0, T_origin_).patches[0];
 };

@@ -22,7 +22,7 @@ class PhotometricAlignment : public testing::Test {
     return start;
   }
 
-  const SineRoom room_;
+  const SineRoom room_{};
   const Keyframe keyframe_ = room_.keyframe(0, Eigen::Isometry3d::Identity());
   const Eigen::Isometry3d T_true_ = pose(0.01, -0.03, 0.015, 0.08, -0.05, -0.2);
   const GreyImage image_ = room_.image(T_true_.inverse());

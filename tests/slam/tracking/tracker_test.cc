@@ -29,7 +29,7 @@ class TrackerTest : public testing::Test {
     EXPECT_LT(shift_between(result.T_keyframe_camera, T_true), 2e-3);
   }
 
-  const SineRoom room_;
+  const SineRoom room_{};
   const Keyframe keyframe_ = room_.keyframe(0, Eigen::Isometry3d::Identity());
   const Eigen::Isometry3d T_still_ = Eigen::Isometry3d::Identity();
 };

@@ -19,7 +19,7 @@ class PairTermTest : public testing::Test {
     return at;
   }
 
-  const SineRoom room_;
+  const SineRoom room_{};
   const Eigen::Isometry3d T_world_target_ = pose(0.01, -0.06, 0.02, 0.2, 0.1, 0.3);
   const Eigen::Isometry3d T_target_host_ = T_world_target_.inverse();
   const Keyframe host_ = room_.keyframe(0, Eigen::Isometry3d::Identity());

@@ -133,7 +133,7 @@ TEST_F(BenchmarkTest, DoesNotTakeAHalfOverwrittenSessionForAFinishedOne) {
 }
 
 TEST_F(BenchmarkTest, GoesOnAfterARunThatFails) {
-  const Benchmark benchmark = run_with([this](const ReplayRun& run, const ReplayWatch&) {
+  const Benchmark benchmark = run_with([](const ReplayRun& run, const ReplayWatch&) {
     if (run.rays == 64) return ReplayOutcome{ReplayOutcome::Status::kFailed, "no calibration"};
     testing::put_session(run);
     return ReplayOutcome{};
