@@ -43,6 +43,7 @@ std::vector<std::string> arguments_of(const ReplayRun& run) {
 Result<pid_t> spawn(const std::filesystem::path& program, std::vector<std::string> arguments,
                     const std::filesystem::path& log) {
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   posix_spawn_file_actions_t files;

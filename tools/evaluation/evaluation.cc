@@ -30,6 +30,7 @@ PosePairs collect_pairs(const Trajectory& estimate, const Trajectory& truth,
 
 std::vector<Eigen::Vector3d> positions(const std::vector<Eigen::Isometry3d>& poses) {
   std::vector<Eigen::Vector3d> points;
+  points.reserve(poses.size());
   for (const Eigen::Isometry3d& pose : poses) {
     points.emplace_back(pose.translation());
   }
