@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "slam/tracking/patch_correlation.h"
+#include "slam/tracking/patch_agreement.h"
 
 namespace sparsight {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "slam/tracking/patch_correlation.h"
+#include "slam/tracking/patch_agreement.h"
 #include "slam/tracking/starting_motions.h"
 
 namespace sparsight {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "slam/tracking/patch_correlation.h"
+#include "slam/tracking/patch_agreement.h"
 
 namespace sparsight {
 namespace {

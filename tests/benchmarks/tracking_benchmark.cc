@@ -1,4 +1,4 @@
-#include "slam/tracking/patch_correlation.h"
+#include "slam/tracking/patch_agreement.h"
 #include "slam/tracking/photometric_kernel.h"
 #include "slam/tracking/robust_model.h"
 #include "slam/tracking/tracker.h"

@@ -1,4 +1,4 @@
-#include "slam/tracking/patch_correlation.h"
+#include "slam/tracking/patch_agreement.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "slam/tracking/patch_correlation.h"
+#include "slam/tracking/patch_agreement.h"
 
 #include <gtest/gtest.h>
 
@@ -15,14 +15,14 @@ PatchAgreement agreement(const SineRoom& room, const PatchSet& patches, const Gr
   return patch_agreement(patches, l, brightness);
 }
 
-class PatchCorrelation : public testing::Test {
+class PatchAgreementTest : public testing::Test {
  protected:
   const SineRoom room_{};
   const Eigen::Isometry3d T_origin_ = Eigen::Isometry3d::Identity();
   const PatchSet patches_ = room_.keyframe(0, T_origin_).patches[0];
 };
 
-TEST_F(PatchCorrelation, IsAllAtTheTruePose) {
+TEST_F(PatchAgreementTest, IsAllAtTheTruePose) {
   const PatchAgreement same = agreement(room_, patches_, room_.image(T_origin_), T_origin_);
   EXPECT_EQ(same.found_share, 1.0);
   EXPECT_EQ(same.visible_patches, static_cast<int>(patches_.patches));
@@ -30,14 +30,14 @@ TEST_F(PatchCorrelation, IsAllAtTheTruePose) {
   EXPECT_GT(agreement(room_, patches_, room_.image(T.inverse()), T).found_share, 0.97);
 }
 
-TEST_F(PatchCorrelation, DoesNotCareForBrightnessKnownOrUnknown) {
+TEST_F(PatchAgreementTest, DoesNotCareForBrightnessKnownOrUnknown) {
   const Brightness darker{0.6, 20.0};
   const GreyImage image = room_.image(T_origin_, darker);
   EXPECT_GT(agreement(room_, patches_, image, T_origin_, darker).found_share, 0.97);
   EXPECT_GT(agreement(room_, patches_, image, T_origin_).found_share, 0.97);
 }
 
-TEST_F(PatchCorrelation, IsLittleInAnotherRoomAndNothingInTheNegative) {
+TEST_F(PatchAgreementTest, IsLittleInAnotherRoomAndNothingInTheNegative) {
   SineRoom other = room_;
   other.pattern = 4;
   EXPECT_LT(agreement(room_, patches_, other.image(T_origin_), T_origin_).found_share, 0.4);
@@ -45,12 +45,12 @@ TEST_F(PatchCorrelation, IsLittleInAnotherRoomAndNothingInTheNegative) {
   EXPECT_EQ(agreement(room_, patches_, negative, T_origin_).found_share, 0.0);
 }
 
-TEST_F(PatchCorrelation, IsNothingInAnImageWithoutTexture) {
+TEST_F(PatchAgreementTest, IsNothingInAnImageWithoutTexture) {
   const GreyImage grey = analytic_image(160, 120, [](double, double) { return 90.0; });
   EXPECT_EQ(agreement(room_, patches_, grey, T_origin_).found_share, 0.0);
 }
 
-TEST_F(PatchCorrelation, CountsThePatchesWhoseCentreIsSeen) {
+TEST_F(PatchAgreementTest, CountsThePatchesWhoseCentreIsSeen) {
   const Eigen::Isometry3d T = pose(0.0, 0.5, 0.0, 0.0, 0.0, 0.0);
   const PatchAgreement turned = agreement(room_, patches_, room_.image(T.inverse()), T);
   int expected = 0;
@@ -65,7 +65,7 @@ TEST_F(PatchCorrelation, CountsThePatchesWhoseCentreIsSeen) {
   EXPECT_LT(turned.visible_patches, static_cast<int>(patches_.patches) * 3 / 4);
 }
 
-TEST_F(PatchCorrelation, LeavesPatchesWithoutTextureOut) {
+TEST_F(PatchAgreementTest, LeavesPatchesWithoutTextureOut) {
   // A keyframe most of which is blank: the rest decides.
   GreyImage half = room_.image(T_origin_);
   for (int v = 0; v < half.height; ++v) {
@@ -77,7 +77,7 @@ TEST_F(PatchCorrelation, LeavesPatchesWithoutTextureOut) {
   EXPECT_GT(agreement(room_, patches, room_.image(T_origin_), T_origin_).found_share, 0.97);
 }
 
-TEST_F(PatchCorrelation, IsNothingForAKeyframeTakenInTheDark) {
+TEST_F(PatchAgreementTest, IsNothingForAKeyframeTakenInTheDark) {
   const GreyImage black = analytic_image(160, 120, [](double, double) { return 0.0; });
   const PatchSet patches = room_.keyframe(0, T_origin_, black).patches[0];
   EXPECT_EQ(agreement(room_, patches, black, T_origin_).found_share, 0.0);
