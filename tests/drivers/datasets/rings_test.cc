@@ -261,8 +261,11 @@ RC_GTEST_PROP(Rings, KeepExactlyAsManyAsWanted, ()) {
 RC_GTEST_PROP(Rings, AreTheLasersOfAnyScanStoredRingAfterRing, ()) {
   Scanner scanner;
   scanner.lasers = *rc::gen::inRange(3, 65);
-  scanner.spacing = *rc::gen::inRange(2, 21) * 0.1;
   scanner.top_elevation = *rc::gen::inRange(0, 20);
+  // No laser looks further down than 60 degrees; past the nadir it would look behind itself.
+  const int widest =
+      std::min(20, static_cast<int>(10.0 * (scanner.top_elevation + 60.0) / (scanner.lasers - 1)));
+  scanner.spacing = *rc::gen::inRange(2, widest + 1) * 0.1;
   scanner.direction = *rc::gen::element(1, -1);
   // A whole turn or a crop that starts anywhere.
   scanner.start_azimuth = *rc::gen::inRange(-180, 180);
