@@ -11,8 +11,9 @@
 namespace sparsight {
 namespace {
 
-constexpr double kErrorMemory = 0.7;  // how fast the expected error of the prediction calms down
-constexpr int kPatientFrames = 3;     // untracked frames before a new keyframe is forced
+constexpr double kErrorMemory = 0.7;   // how fast the expected error of the prediction calms down
+constexpr int kPatientFrames = 3;      // untracked frames before a new keyframe is forced
+constexpr double kHardlyFound = 0.45;  // of the patches; wrong poses seldom find more
 
 CloudPoint colored(const CameraReturn& r, const SynchronizedFrame& frame) {
   CloudPoint point{.p_camera = r.p_camera, .intensity = r.intensity};
@@ -41,13 +42,15 @@ struct Odometry::State {
         config(settings),
         camera(rig.camera),
         tracker(camera, settings.tracker, settings.photometry),
-        window(camera, settings.window, settings.photometry) {}
+        window(camera, settings.window, settings.photometry),
+        self_calibration(rig.camera, settings.self_calibration) {}
 
   RigCalibration calibration;
   OdometryConfig config;
   CameraModel camera;
   Tracker tracker;
   WindowOptimizer window;
+  SelfCalibration self_calibration;
 
   MotionModel motion;
   Brightness brightness;  // of the last tracked frame relative to the keyframe
@@ -55,6 +58,8 @@ struct Odometry::State {
   double sigma_grey = std::numeric_limits<double>::infinity();  // of the last tracked frame
   double found_share = 0.0;                                     // of the last tracked frame
   int untracked = 0;                                            // frames in a row
+  // Frames in a row that found little or nothing: their velocity is no ground to refuse another.
+  int hardly_found = 0;
   // Of the frame last tracked, for add_keyframe.
   ImagePyramid pyramid;
   FrameOutcome outcome;
@@ -64,6 +69,7 @@ struct Odometry::State {
   void learn(const SynchronizedFrame& frame, const TrackingResult& result,
              const TrackingStart& start);
   std::unique_ptr<Keyframe> make_keyframe(const SynchronizedFrame& frame) const;
+  void recalibrate();
   void retire_oldest();
 };
 
@@ -72,13 +78,15 @@ FrameOutcome Odometry::State::follow(const SynchronizedFrame& frame) {
   const Keyframe& keyframe = window.latest();
   FrameOutcome result;
   result.keyframe_sequence = keyframe.sequence;
-  const TrackingStart start{.T_keyframe_previous = motion.last_in_keyframe(),
-                            .T_keyframe_predicted = motion.predict_in_keyframe(frame.exposure),
-                            .brightness = brightness,
-                            .error_px = start_error_px,
-                            .sigma_grey = sigma_grey,
-                            .found_share = found_share,
-                            .seconds_since_previous = motion.seconds_since_last(frame.exposure)};
+  const TrackingStart start{
+      .T_keyframe_previous = motion.last_in_keyframe(),
+      .T_keyframe_predicted = motion.predict_in_keyframe(frame.exposure),
+      .brightness = brightness,
+      .error_px = start_error_px,
+      .sigma_grey = sigma_grey,
+      .found_share = found_share,
+      .seconds_since_previous =
+          hardly_found < kPatientFrames ? motion.seconds_since_last(frame.exposure) : std::nullopt};
   if (!pyramid.empty()) result.tracking = tracker.track(keyframe, pyramid, start);
   if (result.tracking.ok()) {
     result.status = FrameOutcome::Status::kTracked;
@@ -89,6 +97,8 @@ FrameOutcome Odometry::State::follow(const SynchronizedFrame& frame) {
     result.tracking.T_keyframe_camera = start.T_keyframe_predicted;
     ++untracked;
   }
+  const bool found = result.tracking.ok() && result.tracking.found_share >= kHardlyFound;
+  hardly_found = found ? 0 : hardly_found + 1;
   result.T_world_camera = keyframe.T_world_camera * result.tracking.T_keyframe_camera;
 
   const bool old = to_seconds(frame.exposure - keyframe.exposure) >= config.keyframes.max_age_s;
@@ -140,6 +150,12 @@ std::unique_ptr<Keyframe> Odometry::State::make_keyframe(const SynchronizedFrame
   return keyframe;
 }
 
+void Odometry::State::recalibrate() {
+  camera = self_calibration.camera();
+  tracker.set_camera(camera);
+  window.set_camera(camera);
+}
+
 void Odometry::State::retire_oldest() {
   MarginalizedKeyframe marginalized = window.marginalize_oldest();
   Keyframe& keyframe = *marginalized.keyframe;
@@ -183,10 +199,16 @@ void Odometry::add_keyframe(const SynchronizedFrame& frame) {
   if (static_cast<int>(keyframe->points.size()) < s.config.tracker.min_points) return;
   s.window.add(std::move(keyframe));
   s.window.optimize();
+  if (s.config.self_calibration.enabled && s.window.teach(s.self_calibration)) s.recalibrate();
   if (s.window.full()) s.retire_oldest();
   s.motion.rebase(frame.exposure);
+  // A keyframe for want of tracking stands where it was guessed: the guess is not to be defended.
+  if (s.untracked > 0) s.motion.forget_velocity();
+  s.untracked = 0;
   s.brightness = {};
 }
+
+const CameraIntrinsics& Odometry::camera() const { return state_->camera.intrinsics(); }
 
 std::vector<RetiredKeyframe> Odometry::take_retired() { return std::exchange(state_->retired, {}); }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hal/frame_source.h"
+#include "slam/calibration/self_calibration.h"
 #include "slam/keyframe.h"
 #include "slam/points/point_selection.h"
 #include "slam/tracking/tracker.h"
@@ -25,6 +26,7 @@ struct OdometryConfig {
   TrackerConfig tracker;
   KeyframeConfig keyframes;
   WindowConfig window;
+  SelfCalibrationConfig self_calibration;
 };
 
 // A keyframe that has left the window: its pose is final for the odometry.
@@ -66,6 +68,8 @@ class Odometry {
   FrameOutcome track(const SynchronizedFrame& frame);
   // If track() said so: makes the frame a keyframe, optimises the window, marginalises the oldest.
   void add_keyframe(const SynchronizedFrame& frame);
+  // The camera as it is believed to be now: as given, or as self-calibration has found it.
+  const CameraIntrinsics& camera() const;
   // Keyframes that left the window since the last call, oldest first.
   std::vector<RetiredKeyframe> take_retired();
   // Empties the window at the end of a run: all remaining keyframes leave.

@@ -56,6 +56,8 @@ class VisitedPlaces {
 // A start that finds more than this share of the patches is as good as right.
 constexpr double kFoundAtStart = 0.4;
 constexpr double kDoubtful = 0.6;
+// Right poses find more than this share of the patches unless strangers fill half of the image.
+constexpr double kWellFound = 0.55;
 
 PhotometryConfig per_pixel(PhotometryConfig photometry) {
   photometry.patch_weights = false;
@@ -67,7 +69,12 @@ PhotometryConfig per_pixel(PhotometryConfig photometry) {
 Tracker::Tracker(const CameraModel& camera, const TrackerConfig& config,
                  const PhotometryConfig& photometry)
     : config_(config), photometry_(photometry) {
-  for (int level = 0; level < config.pyramid_levels; ++level) {
+  set_camera(camera);
+}
+
+void Tracker::set_camera(const CameraModel& camera) {
+  cameras_.clear();
+  for (int level = 0; level < config_.pyramid_levels; ++level) {
     cameras_.push_back(camera.at_level(level));
   }
 }
@@ -211,7 +218,7 @@ TrackingResult Tracker::track(const Keyframe& keyframe, const ImagePyramid& imag
   TrackingResult result = verdict(keyframe, at, start, from.level);
   result.attempts = 1;
   // Much less found than in the frame before: perhaps the wrong minimum.
-  const bool doubtful = result.found_share < kDoubtful * start.found_share;
+  const bool doubtful = result.found_share < std::max(kDoubtful * start.found_share, kWellFound);
   if (!config_.try_other_starts || (known && result.ok() && !doubtful)) return result;
 
   const TrackingResult searched = search(keyframe, image, start, levels - 1, result);

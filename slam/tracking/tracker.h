@@ -64,6 +64,8 @@ class Tracker {
   Tracker(const CameraModel& camera, const TrackerConfig& config,
           const PhotometryConfig& photometry);
 
+  void set_camera(const CameraModel& camera);
+
   TrackingResult track(const Keyframe& keyframe, const ImagePyramid& image,
                        const TrackingStart& start);
 

@@ -197,6 +197,28 @@ WindowSummary WindowOptimizer::optimize() {
   return summary;
 }
 
+// One pair: the others share its points, and with them its errors.
+bool WindowOptimizer::teach(SelfCalibration& calibration) {
+  if (!pairs_) return false;
+  for (const Pair& pair : *pairs_) {
+    if (pair.target != size() - 1 || pair.host != size() - 2) continue;
+    const PairTerm term = linearize_pair(pair.host, pair.target);
+    calibration.observe(keyframe(pair.host), term.at, workspace_.current, photometry_);
+  }
+  return calibration.update();
+}
+
+void WindowOptimizer::set_camera(const CameraModel& camera) {
+  camera_ = camera;
+  for (const auto& keyframe : keyframes_) {
+    for (int level = 0; level < keyframe->pyramid.levels(); ++level) {
+      keyframe->patches[static_cast<std::size_t>(level)] = make_patches(
+          keyframe->pyramid, level, camera, keyframe->points, photometry_.gradient_weight_constant);
+    }
+  }
+  pairs_.reset();
+}
+
 void WindowOptimizer::forget_pairs_of_oldest() {
   const std::uint64_t leaver = oldest().sequence;
   std::erase_if(known_, [&](const auto& entry) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "slam/calibration/self_calibration.h"
 #include "slam/keyframe.h"
 #include "slam/window/marginalization.h"
 #include "slam/window/pair_term.h"
@@ -57,6 +58,10 @@ class WindowOptimizer {
   void add(std::unique_ptr<Keyframe> keyframe);
   // Gauss–Newton over the poses only (Sec. IV-D).
   WindowSummary optimize();
+  // Shows the two newest keyframes to the calibration; true if that changed its camera.
+  bool teach(SelfCalibration& calibration);
+  // From now on all keyframes are compared through this camera.
+  void set_camera(const CameraModel& camera);
   // The oldest keyframe leaves; its terms stay as a prior. Precondition: size() > 0.
   MarginalizedKeyframe marginalize_oldest();
 

@@ -70,12 +70,21 @@ void visit_fields(Visitor& profile, WindowConfig& window) {
 }
 
 template <typename Visitor>
+void visit_fields(Visitor& profile, SelfCalibrationConfig& calibration) {
+  profile.field("enabled", calibration.enabled);
+  profile.field("focal_sigma", calibration.focal_sigma, {1e-6, 1.0});
+  profile.field("k1_sigma", calibration.k1_sigma, {1e-6, 1.0});
+  profile.field("information_share", calibration.information_share, {1e-9, 1.0});
+}
+
+template <typename Visitor>
 void visit_fields(Visitor& profile, OdometryConfig& odometry) {
   profile.table("points", odometry.points);
   profile.table("photometry", odometry.photometry);
   profile.table("tracker", odometry.tracker);
   profile.table("keyframes", odometry.keyframes);
   profile.table("window", odometry.window);
+  profile.table("self_calibration", odometry.self_calibration);
 }
 
 }  // namespace sparsight
