@@ -55,9 +55,8 @@ struct Odometry::State {
   MotionModel motion;
   Brightness brightness;  // of the last tracked frame relative to the keyframe
   double start_error_px = std::numeric_limits<double>::infinity();
-  double sigma_grey = std::numeric_limits<double>::infinity();  // of the last tracked frame
-  double found_share = 0.0;                                     // of the last tracked frame
-  int untracked = 0;                                            // frames in a row
+  double found_share = 0.0;  // of the last tracked frame
+  int untracked = 0;         // frames in a row
   // Frames in a row that found little or nothing: their velocity is no ground to refuse another.
   int hardly_found = 0;
   // Of the frame last tracked, for add_keyframe.
@@ -83,7 +82,6 @@ FrameOutcome Odometry::State::follow(const SynchronizedFrame& frame) {
       .T_keyframe_predicted = motion.predict_in_keyframe(frame.exposure),
       .brightness = brightness,
       .error_px = start_error_px,
-      .sigma_grey = sigma_grey,
       .found_share = found_share,
       .seconds_since_previous =
           hardly_found < kPatientFrames ? motion.seconds_since_last(frame.exposure) : std::nullopt};
@@ -120,7 +118,6 @@ void Odometry::State::learn(const SynchronizedFrame& frame, const TrackingResult
       (error.head<3>().norm() + error.tail<3>().norm() * keyframe.mean_inverse_depth);
   motion.observe(frame.exposure, result.T_keyframe_camera);
   brightness = result.brightness;
-  sigma_grey = result.residual_sigma_grey;
   found_share = result.found_share;
   if (predicted) {
     start_error_px = std::isfinite(start_error_px)

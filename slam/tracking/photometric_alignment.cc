@@ -97,8 +97,7 @@ class LevelAlignment {
 
   // The scale is estimated in each iteration, after eq. (5).
   Alignment measured(Alignment at) const {
-    at.sigma_grey =
-        std::min(estimate_sigma(space_.current, photometry_, at.sigma_grey), at.sigma_limit_grey);
+    at.sigma_grey = estimate_sigma(space_.current, photometry_, at.sigma_grey);
     at.cost = robust_cost(space_.current, photometry_, at.sigma_grey);
     at.visible_share = visible_share(patches_, space_.current);
     return at;

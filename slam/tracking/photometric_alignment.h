@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <limits>
 
 #include "slam/geometry/se3.h"
 #include "slam/tracking/photometric_kernel.h"
@@ -20,9 +19,7 @@ struct Alignment {
   Eigen::Isometry3d T_camera_keyframe = Eigen::Isometry3d::Identity();  // T_m^n of eq. (1)
   Brightness brightness;
   double sigma_grey = 5.0;  // sigma_r of eq. (5); the start of its next estimation
-  // No residual scale above this is believed: from a good start, what fits worse is something else.
-  double sigma_limit_grey = std::numeric_limits<double>::infinity();
-  double cost = 0.0;  // robust_cost() at sigma_grey
+  double cost = 0.0;        // robust_cost() at sigma_grey
   double visible_share = 0.0;
   bool converged = false;
   Matrix6d information = Matrix6d::Zero();  // of the left increment, brightness marginalised out

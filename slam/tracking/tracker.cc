@@ -116,8 +116,6 @@ Tracker::Entry Tracker::entry(const Keyframe& keyframe, const ImagePyramid& imag
   if (!best.found) {
     best.level = std::clamp(static_cast<int>(std::ceil(std::log2(std::max(start.error_px, 1.0)))),
                             0, coarsest);
-  } else if (config_.max_sigma_growth > 0.0) {
-    best.at.sigma_limit_grey = config_.max_sigma_growth * start.sigma_grey;
   }
   return best;
 }

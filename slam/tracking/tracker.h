@@ -25,9 +25,6 @@ struct TrackerConfig {
   double min_found_share = 0.3;  // of the patches, below: diverged
   // No rig that people or vehicles carry changes its speed faster; a pose that says so is wrong.
   double max_acceleration_m_s2 = 1e3;
-  // After a good prediction the residual scale may grow by this factor from frame to frame; what
-  // fits worse (passing cars that fill the image) is not part of the scene. 0: no limit.
-  double max_sigma_growth = 0.0;
 };
 
 struct TrackingResult {
@@ -51,9 +48,8 @@ struct TrackingStart {
   Eigen::Isometry3d T_keyframe_previous = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_keyframe_predicted = Eigen::Isometry3d::Identity();
   Brightness brightness;
-  double error_px = std::numeric_limits<double>::infinity();    // of the prediction, in the image
-  double sigma_grey = std::numeric_limits<double>::infinity();  // residual scale of the last frame
-  double found_share = 0.0;                                     // of the last frame
+  double error_px = std::numeric_limits<double>::infinity();  // of the prediction, in the image
+  double found_share = 0.0;                                   // of the last frame
   // Time since the last tracked frame; nothing if its velocity is not known.
   std::optional<double> seconds_since_previous;
 };

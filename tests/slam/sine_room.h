@@ -48,9 +48,13 @@ class SineRoom {
     return origin + distance * direction;
   }
 
-  Eigen::Vector3d p_world_at(const Eigen::Isometry3d& T_world_camera, double u, double v) const {
+  Eigen::Vector3d p_world_at(const CameraModel& lens, const Eigen::Isometry3d& T_world_camera,
+                             double u, double v) const {
     return wall_along(T_world_camera.translation(),
-                      T_world_camera.linear() * camera().unproject({u, v}));
+                      T_world_camera.linear() * lens.unproject({u, v}));
+  }
+  Eigen::Vector3d p_world_at(const Eigen::Isometry3d& T_world_camera, double u, double v) const {
+    return p_world_at(camera(), T_world_camera, u, v);
   }
 
   // noise_grey: standard deviation; its draws depend on the seed alone.
@@ -58,8 +62,9 @@ class SineRoom {
                   double noise_grey = 0.0, std::uint32_t seed = 1) const {
     std::mt19937 random(seed);
     std::normal_distribution<double> noise(0.0, 1.0);
+    const CameraModel lens = camera();
     return analytic_image(intrinsics.width, intrinsics.height, [&](double u, double v) {
-      return brightness.gain * grey(p_world_at(T_world_camera, u, v)) + brightness.offset +
+      return brightness.gain * grey(p_world_at(lens, T_world_camera, u, v)) + brightness.offset +
              noise_grey * noise(random);
     });
   }
@@ -67,8 +72,9 @@ class SineRoom {
   std::vector<SelectedPoint> points(const Eigen::Isometry3d& T_world_camera,
                                     int spacing_px = 8) const {
     const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();
+    const CameraModel lens = camera();
     const auto p_camera_at = [&](double u, double v) -> Eigen::Vector3d {
-      return T_camera_world * p_world_at(T_world_camera, u, v);
+      return T_camera_world * p_world_at(lens, T_world_camera, u, v);
     };
     std::vector<SelectedPoint> result;
     for (int v = 5; v < intrinsics.height - 5; v += spacing_px) {

@@ -50,7 +50,6 @@ void visit_fields(Visitor& profile, TrackerConfig& tracker) {
   profile.field("min_points", tracker.min_points, {6, 100000});
   profile.field("min_found_share", tracker.min_found_share, {-1.0, 1.0});
   profile.field("max_acceleration_m_s2", tracker.max_acceleration_m_s2, {1.0, 1e6});
-  profile.field("max_sigma_growth", tracker.max_sigma_growth, {0.0, 1000.0});
 }
 
 template <typename Visitor>
