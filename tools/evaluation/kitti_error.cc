@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kKittiFramePeriod_s = 0.1;  // of a path without times
 constexpr double kSpeedBinStep = 2.0;        // m/s; also the half width of a bin, as in the kit
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 double duration_s(const PosePairs& pairs, std::size_t first, std::size_t last) {
   return pairs.times.empty() ? kKittiFramePeriod_s * static_cast<double>(last - first)
@@ -44,7 +44,7 @@ SegmentMean mean_of(const std::vector<SegmentError>& segments, double key, Predi
   }
   if (mean.segments > 0) {
     mean.t_rel_percent *= 100.0 / static_cast<double>(mean.segments);
-    mean.r_rel_deg_per_m *= kDegPerRad / static_cast<double>(mean.segments);
+    mean.r_rel_deg_per_m *= kDegreesPerRadian / static_cast<double>(mean.segments);
   }
   return mean;
 }

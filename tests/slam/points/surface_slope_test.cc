@@ -8,10 +8,10 @@
 namespace sparsight {
 namespace {
 
-const CameraIntrinsics kIntrinsics{640, 480, 600.0, 600.0, 320.0, 240.0};
+const CameraIntrinsics kSquareIntrinsics{640, 480, 600.0, 600.0, 320.0, 240.0};
 
 CameraReturn on_plane(const Eigen::Vector3d& normal, double distance, double u, double v) {
-  const Eigen::Vector3d ray = CameraModel(kIntrinsics).unproject({u, v});
+  const Eigen::Vector3d ray = CameraModel(kSquareIntrinsics).unproject({u, v});
   return {.p_camera = (distance / normal.dot(ray) * ray).cast<float>(),
           .pixel = Eigen::Vector2d(u, v).cast<float>()};
 }
@@ -35,9 +35,10 @@ RC_GTEST_PROP(SurfaceSlope, IsThatOfAPlane, ()) {
   const double distance = any_between(1.0, 40.0);
   const auto returns = grid_on_plane(normal, distance, 2.0, 2.0);
   const Eigen::Vector2d expected =
-      Eigen::Vector2d(normal.x() / kIntrinsics.fx, normal.y() / kIntrinsics.fy) / distance;
+      Eigen::Vector2d(normal.x() / kSquareIntrinsics.fx, normal.y() / kSquareIntrinsics.fy) /
+      distance;
   const Eigen::Vector2f slope =
-      SurfaceSlopes(returns, CameraModel(kIntrinsics)).at(returns.size() / 2);
+      SurfaceSlopes(returns, CameraModel(kSquareIntrinsics)).at(returns.size() / 2);
   RC_ASSERT((slope.cast<double>() - expected).norm() < 0.01 * expected.norm() + 1e-8);
 }
 
@@ -45,21 +46,21 @@ TEST(SurfaceSlope, IsZeroAcrossARingWithoutNeighbours) {
   const Eigen::Vector3d normal = Eigen::Vector3d(0.6, 0.7, 1.0).normalized();
   const auto returns = grid_on_plane(normal, 8.0, 2.0, 1000.0);
   const Eigen::Vector2f slope =
-      SurfaceSlopes(returns, CameraModel(kIntrinsics)).at(returns.size() / 2);
-  EXPECT_NEAR(slope.x(), normal.x() / kIntrinsics.fx / 8.0, 0.02 * normal.x() / 600.0 / 8.0);
+      SurfaceSlopes(returns, CameraModel(kSquareIntrinsics)).at(returns.size() / 2);
+  EXPECT_NEAR(slope.x(), normal.x() / kSquareIntrinsics.fx / 8.0, 0.02 * normal.x() / 600.0 / 8.0);
   EXPECT_EQ(slope.y(), 0.0F);
 }
 
 TEST(SurfaceSlope, OfALoneReturnIsZero) {
   const std::vector<CameraReturn> lone{on_plane(Eigen::Vector3d::UnitZ(), 5.0, 100.0, 100.0)};
-  EXPECT_EQ(SurfaceSlopes(lone, CameraModel(kIntrinsics)).at(0), Eigen::Vector2f::Zero());
+  EXPECT_EQ(SurfaceSlopes(lone, CameraModel(kSquareIntrinsics)).at(0), Eigen::Vector2f::Zero());
 }
 
 TEST(SurfaceSlope, DoesNotMixAWallWithWhatStandsBehindIt) {
   const Eigen::Vector3d normal = Eigen::Vector3d(0.4, -0.2, 1.0).normalized();
   auto returns = grid_on_plane(normal, 6.0, 2.0, 2.0);
   const std::size_t middle = returns.size() / 2;
-  const SurfaceSlopes alone(returns, CameraModel(kIntrinsics));
+  const SurfaceSlopes alone(returns, CameraModel(kSquareIntrinsics));
   const Eigen::Vector2f expected = alone.at(middle);
   auto mixed = returns;
   for (double v = 201.0; v <= 240.0; v += 2.0) {
@@ -67,7 +68,7 @@ TEST(SurfaceSlope, DoesNotMixAWallWithWhatStandsBehindIt) {
       mixed.push_back(on_plane(Eigen::Vector3d::UnitZ(), 14.0, u, v));
     }
   }
-  EXPECT_EQ(SurfaceSlopes(mixed, CameraModel(kIntrinsics)).at(middle), expected);
+  EXPECT_EQ(SurfaceSlopes(mixed, CameraModel(kSquareIntrinsics)).at(middle), expected);
 }
 
 // A few returns from a twig 5 % nearer, within what counts as the same surface.
@@ -75,13 +76,14 @@ TEST(SurfaceSlope, IsLittleMovedByAFewOtherReturns) {
   const Eigen::Vector3d normal = Eigen::Vector3d(0.4, -0.2, 1.0).normalized();
   auto returns = grid_on_plane(normal, 6.0, 2.0, 2.0);
   const std::size_t middle = returns.size() / 2;
-  const Eigen::Vector2f expected = SurfaceSlopes(returns, CameraModel(kIntrinsics)).at(middle);
+  const Eigen::Vector2f expected =
+      SurfaceSlopes(returns, CameraModel(kSquareIntrinsics)).at(middle);
   auto disturbed = returns;
   for (int i = 0; i < 8; ++i) {
     CameraReturn twig = on_plane(normal, 5.7, 323.0 + 0.7 * i, 220.0);
     disturbed.push_back(twig);
   }
-  const Eigen::Vector2f slope = SurfaceSlopes(disturbed, CameraModel(kIntrinsics)).at(middle);
+  const Eigen::Vector2f slope = SurfaceSlopes(disturbed, CameraModel(kSquareIntrinsics)).at(middle);
   EXPECT_LT((slope - expected).norm(), 0.25F * expected.norm());
 }
 
@@ -92,7 +94,7 @@ TEST(SurfaceSlope, CanBeAskedForInEveryCornerOfTheImage) {
       returns.push_back(on_plane(Eigen::Vector3d::UnitZ(), 5.0, u, v));
     }
   }
-  const SurfaceSlopes slopes(returns, CameraModel(kIntrinsics));
+  const SurfaceSlopes slopes(returns, CameraModel(kSquareIntrinsics));
   for (std::size_t i = 0; i < returns.size(); ++i) {
     EXPECT_EQ(slopes.at(i), Eigen::Vector2f::Zero());
   }

@@ -8,12 +8,12 @@
 namespace sparsight {
 namespace {
 
-const CameraIntrinsics kIntrinsics{1226, 370, 707.0, 707.0, 601.0, 183.0};
+const CameraIntrinsics kKittiIntrinsics{1226, 370, 707.0, 707.0, 601.0, 183.0};
 constexpr double kDegree = M_PI / 180.0;
 
 CameraReturn seen(const Eigen::Vector3d& p, int ring) {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  EXPECT_TRUE(CameraModel(kIntrinsics).project(p, pixel));
+  EXPECT_TRUE(CameraModel(kKittiIntrinsics).project(p, pixel));
   return {.p_camera = p.cast<float>(),
           .pixel = pixel.cast<float>(),
           .ring = static_cast<std::uint16_t>(ring)};
@@ -91,19 +91,19 @@ TEST(Hidden, IsWhatANearerSurfaceCovers) {
   returns.push_back(seen(20.0 * ray(5.0, 0.0), 2));   // clear of it by more than two cells
   returns.push_back(seen(5.3 * ray(0.07, 0.1), 2));   // on it, within noise and slope
   returns.push_back(seen(2.0 * ray(0.07, 0.1), 2));   // in front
-  const std::vector<bool> hidden = hidden_from_camera(returns, CameraModel(kIntrinsics));
+  const std::vector<bool> hidden = hidden_from_camera(returns, CameraModel(kKittiIntrinsics));
   EXPECT_TRUE(hidden[box]);
   EXPECT_TRUE(hidden[box + 1]);
   EXPECT_FALSE(hidden[box + 2]);
   EXPECT_FALSE(hidden[box + 4]);
   returns.pop_back();
-  const std::vector<bool> without = hidden_from_camera(returns, CameraModel(kIntrinsics));
+  const std::vector<bool> without = hidden_from_camera(returns, CameraModel(kKittiIntrinsics));
   EXPECT_FALSE(without[box + 3]);
   for (std::size_t i = 0; i < box; ++i) ASSERT_FALSE(without[i]);
 }
 
 TEST(Hidden, TakesPointsAtTheImagesVeryEdge) {
-  const CameraModel camera(kIntrinsics);
+  const CameraModel camera(kKittiIntrinsics);
   std::vector<CameraReturn> returns;
   for (const double u : {0.0, 1225.0}) {
     for (const double v : {0.0, 369.0}) {
@@ -124,14 +124,14 @@ TEST(Visibility, KeepsTheRoad) {
       const Eigen::Vector3d direction = ray(azimuth, down);
       const Eigen::Vector3d p = 1.65 / direction.y() * direction;
       Eigen::Vector2d pixel;
-      const CameraModel camera(kIntrinsics);
+      const CameraModel camera(kKittiIntrinsics);
       if (!camera.project(p, pixel) || !camera.contains(pixel, 0.0)) continue;
       returns.push_back(seen(p, ring));
     }
   }
   ASSERT_GT(returns.size(), 3000U);
   EXPECT_EQ(marked(on_depth_edge(returns)), 0U);
-  EXPECT_EQ(marked(hidden_from_camera(returns, CameraModel(kIntrinsics))), 0U);
+  EXPECT_EQ(marked(hidden_from_camera(returns, CameraModel(kKittiIntrinsics))), 0U);
 }
 
 }  // namespace

@@ -11,18 +11,19 @@ namespace {
 
 constexpr double kHalfLength = 17.0;
 constexpr double kHalfBreadth = 12.0;
-constexpr double kHeight = 7.5;
+constexpr double kHallHeight = 7.5;
 
 void add_walls(Builder& builder, Random& random) {
   for (const double side : {-1.0, 1.0}) {
-    builder.box({0.0, side * kHalfBreadth, 0.0}, {2 * kHalfLength, 0.4, kHeight}, facade(random));
-    builder.box({side * kHalfLength, 0.0, 0.0}, {0.4, 2 * kHalfBreadth, kHeight},
+    builder.box({0.0, side * kHalfBreadth, 0.0}, {2 * kHalfLength, 0.4, kHallHeight},
+                facade(random));
+    builder.box({side * kHalfLength, 0.0, 0.0}, {0.4, 2 * kHalfBreadth, kHallHeight},
                 side > 0 ? brick(random) : plaster(random, 5.0));
     for (double x = -14.0; x < 15.0; x += 7.0) {
-      builder.box({x, side * 8.5, 0.0}, {0.5, 0.5, kHeight}, plaster(random, 6.0));
+      builder.box({x, side * 8.5, 0.0}, {0.5, 0.5, kHallHeight}, plaster(random, 6.0));
     }
   }
-  builder.box({0.0, 0.0, kHeight}, {2 * kHalfLength, 2 * kHalfBreadth, 0.2}, ceiling(random));
+  builder.box({0.0, 0.0, kHallHeight}, {2 * kHalfLength, 2 * kHalfBreadth, 0.2}, ceiling(random));
 }
 
 void add_goods(Builder& builder, Random& random) {

@@ -15,7 +15,7 @@ constexpr double kStopBegins = 0.5;
 constexpr double kStands = 5.5;
 constexpr double kStarts = 9.7;
 constexpr double kFast = 15.2;
-constexpr double kSpeed = 11.0;
+constexpr double kDriveSpeed = 11.0;
 
 // Distance covered in a change of speed that takes `duration`, `t` after its begin: the speed
 // follows a half cosine, so that the acceleration has no jump.
@@ -26,9 +26,9 @@ double ramp(double t, double duration) {
 
 double along(double t) {
   const double braking = kStands - kStopBegins;
-  double s = kSpeed * t;
-  s -= kSpeed * (ramp(t - kStopBegins, braking) + std::max(0.0, t - kStands));
-  s += kSpeed * (ramp(t - kStarts, kFast - kStarts) + std::max(0.0, t - kFast));
+  double s = kDriveSpeed * t;
+  s -= kDriveSpeed * (ramp(t - kStopBegins, braking) + std::max(0.0, t - kStands));
+  s += kDriveSpeed * (ramp(t - kStarts, kFast - kStarts) + std::max(0.0, t - kFast));
   return s;
 }
 

@@ -9,8 +9,8 @@
 namespace sparsight::synthetic {
 namespace {
 
-constexpr double kBegin = -30.0;
-constexpr double kEnd = 700.0;
+constexpr double kStreetBegin = -30.0;
+constexpr double kStreetEnd = 700.0;
 
 struct Site {
   Eigen::Vector3d foot;
@@ -23,7 +23,7 @@ Site beside(const RoadBend& bend, double left_m, double along_m) {
 }
 
 void add_buildings(Builder& builder, const RoadBend& bend, double side, Random& random) {
-  for (double u = kBegin; u < kEnd;) {
+  for (double u = kStreetBegin; u < kStreetEnd;) {
     const double width = random.uniform(9.0, 22.0);
     const double depth = random.uniform(8.0, 12.0);
     const double setback = random.uniform(9.5, 14.0);
@@ -39,7 +39,7 @@ void add_buildings(Builder& builder, const RoadBend& bend, double side, Random& 
 }
 
 void add_roadside(Builder& builder, const RoadBend& bend, double side, Random& random) {
-  for (double u = kBegin; u < kEnd; u += random.uniform(5.5, 13.0)) {
+  for (double u = kStreetBegin; u < kStreetEnd; u += random.uniform(5.5, 13.0)) {
     if (random.chance(0.55)) {
       const Site car = beside(bend, side * 4.9, u);
       add_car(builder, car.foot, car.yaw + (side > 0 ? M_PI : 0.0) + random.gaussian(0.02), random,

@@ -12,7 +12,6 @@ namespace sparsight {
 namespace {
 
 using ::testing::HasSubstr;
-using Status = ReplayOutcome::Status;
 
 // A shell script stands for the program.
 class ReplayProcess : public ::testing::Test {
@@ -38,7 +37,7 @@ class ReplayProcess : public ::testing::Test {
 };
 
 TEST_F(ReplayProcess, PassesTheRunAsReplayTakesIt) {
-  ASSERT_EQ(run("printf '%s\\n' \"$@\"").status, Status::kDone);
+  ASSERT_EQ(run("printf '%s\\n' \"$@\"").status, ReplayOutcome::Status::kDone);
   EXPECT_EQ(read_text_file(run_.log()).value(),
             "replay\n/data set/04\n--rays\n16\n--profile\npaper\n--output\n" +
                 run_.session.string() + "\n--quiet\n--max-frames\n7\n");
@@ -46,13 +45,13 @@ TEST_F(ReplayProcess, PassesTheRunAsReplayTakesIt) {
 
 TEST_F(ReplayProcess, TellsTheLastLineOfWhatFailed) {
   const ReplayOutcome outcome = run("echo first; echo 'calib.txt: no such file' >&2; exit 3");
-  EXPECT_EQ(outcome.status, Status::kFailed);
+  EXPECT_EQ(outcome.status, ReplayOutcome::Status::kFailed);
   EXPECT_THAT(outcome.message, HasSubstr("exit code 3: calib.txt: no such file"));
 }
 
 TEST_F(ReplayProcess, SurvivesACrash) {
   const ReplayOutcome outcome = run("kill -9 $$");
-  EXPECT_EQ(outcome.status, Status::kFailed);
+  EXPECT_EQ(outcome.status, ReplayOutcome::Status::kFailed);
   EXPECT_THAT(outcome.message, HasSubstr("killed by signal 9"));
 }
 
@@ -64,21 +63,21 @@ TEST_F(ReplayProcess, ReadsProgressFromTheJournal) {
 
 TEST_F(ReplayProcess, IsNotDoneWhenInterruptedEvenIfTheChildEndsWell) {
   interrupted_ = true;
-  EXPECT_EQ(run("exit 0").status, Status::kInterrupted);
+  EXPECT_EQ(run("exit 0").status, ReplayOutcome::Status::kInterrupted);
 }
 
 // The child did not hear the interruption itself; without the signal it would sleep on.
 TEST_F(ReplayProcess, PassesAnInterruptionOn) {
   interrupted_ = true;
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_EQ(run("exec sleep 60").status, Status::kInterrupted);
+  EXPECT_EQ(run("exec sleep 60").status, ReplayOutcome::Status::kInterrupted);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 }
 
 TEST_F(ReplayProcess, SaysThatTheProgramCannotBeStarted) {
   const ReplayOutcome outcome = replay_in_process(folder_ / "nothing")(
       run_, {.on_progress = [](std::size_t) {}, .interrupted = [] { return false; }});
-  EXPECT_EQ(outcome.status, Status::kFailed);
+  EXPECT_EQ(outcome.status, ReplayOutcome::Status::kFailed);
   EXPECT_THAT(outcome.message, HasSubstr("nothing: cannot be started"));
 }
 

@@ -10,7 +10,7 @@
 namespace sparsight {
 namespace {
 
-std::string text_of(const std::filesystem::path& path) {
+std::string ply_text(const std::filesystem::path& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return text.str();
@@ -23,7 +23,7 @@ std::filesystem::path scratch_file(const char* name) {
 TEST(PlyWriter, HeaderDeclaresWhatCloudCompareAndMeshLabRead) {
   const auto path = scratch_file("header.ply");
   ASSERT_TRUE(write_ply(path, {MapPoint{}, MapPoint{}}));
-  const std::string text = text_of(path);
+  const std::string text = ply_text(path);
   const std::string header = text.substr(0, text.find("end_header\n"));
   EXPECT_THAT(header, ::testing::StartsWith("ply\nformat binary_little_endian 1.0\ncomment "));
   EXPECT_THAT(header, ::testing::HasSubstr("x right, y down, z forward\n"));
@@ -43,7 +43,7 @@ TEST(PlyWriter, VerticesReadBackAsTheyWere) {
   }
   const auto path = scratch_file("vertices.ply");
   ASSERT_TRUE(write_ply(path, points));
-  const std::string text = text_of(path);
+  const std::string text = ply_text(path);
   const std::string end = "end_header\n";
   const std::string vertices = text.substr(text.find(end) + end.size());
   ASSERT_EQ(vertices.size(), 19 * points.size());

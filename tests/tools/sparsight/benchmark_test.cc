@@ -11,15 +11,15 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Outcome {
+struct BenchmarkOutcome {
   int exit_code = 0;
   std::string err;
 };
 
 // As main() does it, without the process.
-Outcome run_benchmark_command(const std::string& arguments) {
+BenchmarkOutcome run_benchmark_command(const std::string& arguments) {
   CLI::App app;
-  Outcome outcome;
+  BenchmarkOutcome outcome;
   add_benchmark(app, outcome.exit_code);
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
@@ -44,7 +44,7 @@ TEST(BenchmarkCommand, RefusesUsageThatMakesNoSense) {
 }
 
 TEST(BenchmarkCommand, SaysWhichFolderItNeeds) {
-  const Outcome outcome = run_benchmark_command(testing::fresh_folder().string());
+  const BenchmarkOutcome outcome = run_benchmark_command(testing::fresh_folder().string());
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("holds no folder sequences"));
 }

@@ -13,16 +13,16 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Outcome {
+struct EvaluateOutcome {
   int exit_code = 0;
   std::string out;
   std::string err;
 };
 
 // As main() does it, without the process.
-Outcome run_evaluate(const std::string& arguments) {
+EvaluateOutcome run_evaluate(const std::string& arguments) {
   CLI::App app;
-  Outcome outcome;
+  EvaluateOutcome outcome;
   add_evaluate(app, outcome.exit_code);
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
@@ -53,7 +53,7 @@ class EvaluateCommand : public ::testing::Test {
 };
 
 TEST_F(EvaluateCommand, PrintsATableForPeople) {
-  const Outcome outcome = run_evaluate(estimate_ + " --ground-truth " + truth_);
+  const EvaluateOutcome outcome = run_evaluate(estimate_ + " --ground-truth " + truth_);
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.out, HasSubstr("t_rel 1.000 %"));
   EXPECT_EQ(outcome.err, "");
@@ -61,7 +61,7 @@ TEST_F(EvaluateCommand, PrintsATableForPeople) {
 
 TEST_F(EvaluateCommand, PrintsJsonForMachines) {
   // The file after the list of lengths is the estimate, not a length.
-  const Outcome outcome =
+  const EvaluateOutcome outcome =
       run_evaluate("--json --step 1 --lengths 20,10,10 " + estimate_ + " --ground-truth " + truth_);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
@@ -72,7 +72,7 @@ TEST_F(EvaluateCommand, PrintsJsonForMachines) {
 
 TEST_F(EvaluateCommand, FailsOnABadFileWithItsName) {
   const std::string broken = write("broken.txt", "1 0 0\n");
-  const Outcome outcome = run_evaluate(broken + " --ground-truth " + truth_);
+  const EvaluateOutcome outcome = run_evaluate(broken + " --ground-truth " + truth_);
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(outcome.out, "");
   EXPECT_THAT(outcome.err, HasSubstr(broken + ":1: 3 fields"));
@@ -82,7 +82,7 @@ TEST_F(EvaluateCommand, FailsWhenOneHasTimesAndTheOtherNot) {
   const std::string timed = write(
       "timed.tum",
       format_tum(testing::timed(testing::straight_path(301), std::chrono::milliseconds(100))));
-  const Outcome outcome = run_evaluate(estimate_ + " --ground-truth " + timed);
+  const EvaluateOutcome outcome = run_evaluate(estimate_ + " --ground-truth " + timed);
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("--times"));
 }
