@@ -52,6 +52,27 @@ inline constexpr LaserTable kVlp16LaserTable{{
     {15.0, -11.2, 15},
 }};
 
+// The Hi-Res packs the same optics into 20 degrees. Its offsets follow from what the table above
+// obeys: -41.91 mm times the tangent of the elevation.
+inline constexpr LaserTable kVlp16HiResLaserTable{{
+    {-10.0, 7.4, 0},
+    {2.0 / 3.0, -0.5, 8},
+    {-26.0 / 3.0, 6.4, 1},
+    {2.0, -1.5, 9},
+    {-22.0 / 3.0, 5.4, 2},
+    {10.0 / 3.0, -2.4, 10},
+    {-6.0, 4.4, 3},
+    {14.0 / 3.0, -3.4, 11},
+    {-14.0 / 3.0, 3.4, 4},
+    {6.0, -4.4, 12},
+    {-10.0 / 3.0, 2.4, 5},
+    {22.0 / 3.0, -5.4, 13},
+    {-2.0, 1.5, 6},
+    {26.0 / 3.0, -6.4, 14},
+    {-2.0 / 3.0, 0.5, 7},
+    {10.0, -7.4, 15},
+}};
+
 // When laser `laser` of sequence `sequence` fires, counted from the packet's first firing.
 constexpr std::chrono::nanoseconds firing_offset(std::size_t sequence, std::size_t laser) {
   return static_cast<std::int64_t>(sequence) * kVlp16SequenceInterval +
