@@ -213,7 +213,7 @@ RC_GTEST_PROP(SweepAssembler, PutsEveryReturnOnItsSideOfAnySeam, ()) {
   TurningSensor sensor(gap, *rc::gen::inRange(0, 36000));
   SweepAssembler assembler({.seam_azimuth_deg = seam});
   std::size_t fed = 0;
-  const int packets = 3 * 36000 / (12 * gap);
+  const int packets = 18000 / (4 * gap);  // one turn and a half
   for (int i = 0; i < packets; ++i) {
     if (*rc::gen::inRange(0, 20) == 0) sensor.skip(2);
     const DecodedPacket packet = sensor.next();
