@@ -1,9 +1,7 @@
 #include "drivers/vlp16/udp_lidar.h"
 
-#include <fmt/format.h>
 #include <poll.h>
 
-#include <algorithm>
 #include <array>
 #include <ctime>
 #include <utility>
@@ -12,10 +10,6 @@
 
 namespace sparsight {
 namespace {
-
-HostTime arrival_of(const LidarMessage& message) {
-  return std::visit([](const auto& packet) { return packet.arrival; }, message);
-}
 
 std::timespec timespec_of(std::chrono::nanoseconds duration) {
   const auto seconds = std::chrono::floor<std::chrono::seconds>(duration);
@@ -40,7 +34,7 @@ Result<void> UdpLidar::start() {
   }
   counters_ = {};
   bridge_ = {};
-  last_packet_ = {};
+  last_packet_.reset();
   state_ = DeviceState::kSilent;
   return {};
 }
@@ -75,20 +69,19 @@ void UdpLidar::stop() {
 
 std::optional<LidarMessage> UdpLidar::read(std::chrono::nanoseconds patience) {
   if (state_ == DeviceState::kStopped) return std::nullopt;
+  HostTime now = read_clocks().monotonic;
+  const HostTime deadline = now + patience;
   if (next_pending_ == pending_.size()) receive();
-  const HostTime deadline = read_clocks().monotonic + patience;
-  HostTime now;
-  while (next_pending_ == pending_.size() && (now = read_clocks().monotonic) < deadline) {
+  while (next_pending_ == pending_.size() && now < deadline) {
     // What came may have been refused: then the rest of the time is still to be waited.
     if (wait(deadline - now)) receive();
+    now = read_clocks().monotonic;
   }
   auto message = pop();
-  if (message) {
-    last_packet_ = arrival_of(*message);
-    state_ = DeviceState::kStreaming;
-  } else if (now - last_packet_ > options_.silent_after) {
-    state_ = DeviceState::kSilent;
-  }
+  // Position packets alone do not make a scan.
+  if (message && std::holds_alternative<LidarPacket>(*message)) last_packet_ = now;
+  const bool data_come = last_packet_ && now - *last_packet_ <= options_.silent_after;
+  state_ = data_come ? DeviceState::kStreaming : DeviceState::kSilent;
   return message;
 }
 
@@ -104,34 +97,35 @@ void UdpLidar::receive() {
   pending_.clear();
   next_pending_ = 0;
   // Position packets first: a data packet that comes meanwhile is then later than all of them.
-  const auto positions = positions_->receive();
-  const auto data = data_->receive();
+  auto positions = positions_->receive();
+  auto data = data_->receive();
   if (positions.empty() && data.empty()) return;
   bridge_.update(read_clocks());
-  take<LidarPacket>(data, counters_.packets);
-  take<PositionPacket>(positions, counters_.positions);
   counters_.dropped = data_->dropped() + positions_->dropped();
-  const auto earlier = [](const LidarMessage& a, const LidarMessage& b) {
-    return arrival_of(a) < arrival_of(b);
-  };
-  // Each port's packets are in order already; inplace_merge would allocate.
-  std::sort(pending_.begin(), pending_.end(), earlier);
+  while (!data.empty() || !positions.empty()) {
+    // Each port's own order is kept, whatever its stamps say.
+    if (data.empty() || (!positions.empty() && positions.front().stamp < data.front().stamp)) {
+      take<PositionPacket>(positions.front(), counters_.positions);
+      positions = positions.subspan(1);
+    } else {
+      take<LidarPacket>(data.front(), counters_.packets);
+      data = data.subspan(1);
+    }
+  }
 }
 
 template <typename Packet>
-void UdpLidar::take(std::span<const ReceivedDatagram> datagrams, std::uint64_t& count) {
-  for (const ReceivedDatagram& datagram : datagrams) {
-    const bool from_sensor = !sensor_ || datagram.source == *sensor_;
-    auto message = from_sensor && datagram.size == datagram.payload.size()
-                       ? lidar_message<Packet>(datagram.payload, bridge_.to_host(datagram.stamp))
-                       : std::nullopt;
-    if (!message) {
-      ++counters_.refused;
-      continue;
-    }
-    pending_.push_back(std::move(*message));
-    ++count;
+void UdpLidar::take(const ReceivedDatagram& datagram, std::uint64_t& count) {
+  const bool from_sensor = !sensor_ || datagram.source == *sensor_;
+  auto message = from_sensor && datagram.size == datagram.payload.size()
+                     ? lidar_message<Packet>(datagram.payload, bridge_.to_host(datagram.stamp))
+                     : std::nullopt;
+  if (!message) {
+    ++counters_.refused;
+    return;
   }
+  pending_.push_back(std::move(*message));
+  ++count;
 }
 
 std::optional<LidarMessage> UdpLidar::pop() {

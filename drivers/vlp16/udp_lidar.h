@@ -40,7 +40,7 @@ class UdpLidar final : public Lidar {
   Result<void> open();
   void receive();
   template <typename Packet>
-  void take(std::span<const ReceivedDatagram> datagrams, std::uint64_t& count);
+  void take(const ReceivedDatagram& datagram, std::uint64_t& count);
   bool wait(std::chrono::nanoseconds patience) const;
   std::optional<LidarMessage> pop();
 
@@ -52,7 +52,7 @@ class UdpLidar final : public Lidar {
   RealtimeBridge bridge_;
   std::vector<LidarMessage> pending_;
   std::size_t next_pending_ = 0;
-  HostTime last_packet_;
+  std::optional<HostTime> last_packet_;  // of data
   DeviceState state_ = DeviceState::kStopped;
   LidarCounters counters_;
 };
