@@ -20,7 +20,8 @@ struct UdpLidarOptions {
 };
 
 // The LiDAR on the network. It is silent until its first packet comes, and again when they stop.
-// read() is real-time-safe but for the waiting. Thread-bound.
+// Packets of the first milliseconds may carry the time when they were read: the kernel takes so
+// long to begin stamping. read() is real-time-safe but for the waiting. Thread-bound.
 class UdpLidar final : public Lidar {
  public:
   explicit UdpLidar(const LidarConfig& config, const UdpLidarOptions& options = {});
