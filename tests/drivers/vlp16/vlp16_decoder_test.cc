@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 using testing::MadePacket;
 using testing::packet_of;
 
-constexpr std::uint32_t kHourUs = 3'600'000'000U;
+constexpr std::uint32_t kHourMicroseconds = 3'600'000'000U;
 
 DecodedPacket decoded(const MadePacket& made, const LidarConfig& config = {}) {
   Vlp16Decoder decoder(config);
@@ -172,7 +172,7 @@ TEST(Vlp16Decoder, LeavesOutReorderedPackets) {
 TEST(Vlp16Decoder, CountsOnOverTheHour) {
   Vlp16Decoder decoder;
   DecodedPacket out;
-  ASSERT_TRUE(decoder.decode(packet_of({.microseconds_past_hour = kHourUs - 327}), out));
+  ASSERT_TRUE(decoder.decode(packet_of({.microseconds_past_hour = kHourMicroseconds - 327}), out));
   EXPECT_EQ(out.last_firing, SensorTime(1h - 327us + 1'306'368ns));
   ASSERT_TRUE(decoder.decode(packet_of({.microseconds_past_hour = 1000}), out));
   EXPECT_EQ(out.first_firing, SensorTime(1h + 1000us));
@@ -196,7 +196,7 @@ TEST(Vlp16Decoder, ReportsTheClockOnTheSameCountAsTheData) {
   Vlp16Decoder decoder;
   DecodedPacket out;
   const HostTime now(100s);
-  decoder.decode(packet_of({.microseconds_past_hour = kHourUs - 100}, now), out);
+  decoder.decode(packet_of({.microseconds_past_hour = kHourMicroseconds - 100}, now), out);
   decoder.decode(packet_of({.microseconds_past_hour = 1227}, now + 1327us), out);
   constexpr auto kMidnight = "$GPRMC,000000,A,,,,,,,010100,,*26";
   const PositionPacket position{now + 1500us,
@@ -231,10 +231,11 @@ TEST(Vlp16Decoder, DoesNotAllocateAgainOnceGrown) {
 }
 
 RC_GTEST_PROP(Vlp16Decoder, EveryReturnIsWhereItsRangeAndAnglesSay, ()) {
-  const MadePacket made{.first_azimuth_centideg = *rc::gen::inRange(0, 36000),
-                        .block_gap_centideg = *rc::gen::inRange(15, 81),
-                        .microseconds_past_hour = *rc::gen::inRange<std::uint32_t>(0, kHourUs),
-                        .distance_2mm = *rc::gen::inRange<std::uint16_t>(300, 50000)};
+  const MadePacket made{
+      .first_azimuth_centideg = *rc::gen::inRange(0, 36000),
+      .block_gap_centideg = *rc::gen::inRange(15, 81),
+      .microseconds_past_hour = *rc::gen::inRange<std::uint32_t>(0, kHourMicroseconds),
+      .distance_2mm = *rc::gen::inRange<std::uint16_t>(300, 50000)};
   const DecodedPacket out = decoded(made);
   RC_ASSERT(out.returns.size() == 384U);
   SensorTime before = out.first_firing - 1ns;
