@@ -1,11 +1,9 @@
 #include "drivers/vlp16/udp_lidar.h"
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
+#include "tests/drivers/vlp16/loopback_sender.h"
 #include "tests/drivers/vlp16/made_packets.h"
 
 // A sensor on the loopback interface.
@@ -14,33 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using testing::payload_of;
-
-class Sender {
- public:
-  explicit Sender(const char* address = "127.0.0.1") : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
-    sockaddr_in name{};
-    name.sin_family = AF_INET;
-    inet_pton(AF_INET, address, &name.sin_addr);
-    EXPECT_EQ(bind(socket_, reinterpret_cast<const sockaddr*>(&name), sizeof(name)), 0);
-  }
-  ~Sender() { close(socket_); }
-  Sender(const Sender&) = delete;
-  Sender& operator=(const Sender&) = delete;
-
-  template <typename Bytes>
-  void send(std::uint16_t port, const Bytes& bytes) const {
-    sockaddr_in name{};
-    name.sin_family = AF_INET;
-    name.sin_port = htons(port);
-    inet_pton(AF_INET, "127.0.0.1", &name.sin_addr);
-    EXPECT_EQ(sendto(socket_, bytes.data(), bytes.size(), 0,
-                     reinterpret_cast<const sockaddr*>(&name), sizeof(name)),
-              static_cast<ssize_t>(bytes.size()));
-  }
-
- private:
-  int socket_;
-};
+using Sender = testing::LoopbackSender;
 
 LidarConfig loopback() {
   LidarConfig config;
