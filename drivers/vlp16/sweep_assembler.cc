@@ -19,6 +19,10 @@ double wrapped_turn(double degrees) {
 // of view in it.
 constexpr double kMaxRateDegPerNs = 1.25 * 20.0 * 360.0 * 1e-9;
 
+// A firing so close before the seam lies on it: the azimuth of a return is rounded to a float,
+// which must not put a packet's first firing before the packet.
+constexpr double kOnSeamDeg = 1e-4;
+
 std::int64_t sequences_of(const DecodedPacket& packet) {
   return (packet.last_firing - packet.first_firing) / kVlp16SequenceInterval + 1;
 }
@@ -110,11 +114,11 @@ void SweepAssembler::add_firings(const DecodedPacket& packet, double azimuth_deg
   std::uint64_t counted = 0;
   // More than one only if a packet with a dead arc in it holds more than a turn.
   while (next_seam_deg_ < azimuth_deg + packet.turned_deg) {
-    const double to_seam = next_seam_deg_ - azimuth_deg;
+    const double to_seam = next_seam_deg_ - azimuth_deg - kOnSeamDeg;
     const double share = std::clamp(to_seam / packet.turned_deg, 0.0, 1.0);
     const auto beyond = std::find_if(begin, returns.end(), [&](const TimedReturn& point) {
-      // The rounding of a float must not send the packet's first firing round the turn.
-      return wrapped_turn(point.azimuth_deg - packet.first_azimuth_deg + 1e-4) - 1e-4 >= to_seam;
+      const double turned = point.azimuth_deg - packet.first_azimuth_deg;
+      return wrapped_turn(turned + kOnSeamDeg) - kOnSeamDeg >= to_seam;
     });
     const std::uint64_t before = std::max(counted, firings_before(share, packet));
     current_.returns.insert(current_.returns.end(), begin, beyond);
@@ -148,7 +152,8 @@ void SweepAssembler::finish(Revolution::End end, SensorTime when) {
   const std::uint32_t epoch = current_.epoch;
   const HostTime arrival = current_.arrival;
   // The seam may be where a stream begins: nothing was gathered before it.
-  if (current_.received_firings > 0) finished_.push_back(std::move(current_));
+  if (current_.received_firings > 0 || !current_.returns.empty())
+    finished_.push_back(std::move(current_));
   current_ = {};
   current_.returns.reserve(usual_returns + usual_returns / 8);
   current_.epoch = epoch;

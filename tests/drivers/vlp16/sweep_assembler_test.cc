@@ -101,6 +101,17 @@ TEST(SweepAssembler, BeginsWholeWhenTheFirstPacketBeginsAtTheSeam) {
   EXPECT_EQ(revolutions[0].returns.size(), 75U * 384U);
 }
 
+TEST(SweepAssembler, KeepsAFiringThatAFloatPutsBeforeItsPacket) {
+  // 0.01 is a little less as a float.
+  SweepAssembler assembler({.seam_azimuth_deg = 0.01});
+  TurningSensor sensor(40, 1);
+  for (int i = 0; i < 80; ++i) assembler.add(sensor.next());
+  const auto revolutions = all_of(assembler);
+  ASSERT_EQ(revolutions.size(), 1U);
+  EXPECT_EQ(revolutions[0].returns.size(), 75U * 384U);
+  EXPECT_EQ(revolutions[0].received_firings, 75U * 384U);
+}
+
 TEST(SweepAssembler, CutsDualPacketsAsWell) {
   SweepAssembler assembler({.seam_azimuth_deg = 0.0});
   Vlp16Decoder decoder;
@@ -208,14 +219,17 @@ TEST(SweepAssembler, AClockJumpEndsTheRevolution) {
 }
 
 RC_GTEST_PROP(SweepAssembler, PutsEveryReturnOnItsSideOfAnySeam, ()) {
-  const double seam = *rc::gen::inRange(0, 36000) * 0.01;
+  const int seam_centideg = *rc::gen::inRange(0, 36000);
+  const double seam = seam_centideg * 0.01;
   const int gap = *rc::gen::inRange(19, 81);
-  TurningSensor sensor(gap, *rc::gen::inRange(0, 36000));
+  const int packet_turn = 12 * gap;
+  // Past the seam twice, with a loss in between that may hold the seam as well.
+  const int before_seam = *rc::gen::inRange(0, 4 * packet_turn);
+  TurningSensor sensor(gap, (36000 + seam_centideg - before_seam) % 36000);
   SweepAssembler assembler({.seam_azimuth_deg = seam});
   std::size_t fed = 0;
-  const int packets = 18000 / (4 * gap);  // one turn and a half
-  for (int i = 0; i < packets; ++i) {
-    if (*rc::gen::inRange(0, 20) == 0) sensor.skip(2);
+  for (int i = 0; i < 12; ++i) {
+    if (i == 6) sensor.skip(36000 / packet_turn - *rc::gen::inRange(2, 12));
     const DecodedPacket packet = sensor.next();
     fed += packet.returns.size();
     assembler.add(packet);
