@@ -19,7 +19,9 @@ constexpr ReadBack kQuick{.pause = 2ms, .attempts = 3};
 
 class FakeSensor {
  public:
-  FakeSensor() {
+  // `diagnostics` answers what the sensor itself has no answer for.
+  explicit FakeSensor(const httplib::Server::Handler& diagnostics = nullptr) {
+    if (diagnostics) server_.Get("/cgi/diag.json", diagnostics);
     server_.Get("/cgi/settings.json", [this](const httplib::Request&, httplib::Response& answer) {
       const std::lock_guard lock(mutex_);
       ++reads_;
@@ -56,7 +58,6 @@ class FakeSensor {
   FakeSensor(const FakeSensor&) = delete;
   FakeSensor& operator=(const FakeSensor&) = delete;
 
-  httplib::Server& server() { return server_; }
   void disobey() { obeys_ = false; }
   SensorWeb web(std::chrono::milliseconds timeout = 2000ms) const {
     return SensorWeb("127.0.0.1", {.port = static_cast<std::uint16_t>(port_), .timeout = timeout});
@@ -183,27 +184,30 @@ TEST(SensorWeb, ReadsStatus) {
   EXPECT_EQ(status->laser_on, false);
 }
 
-TEST(SensorWeb, SaysSoWhenAnswersAreErrorsOrNoJson) {
-  FakeSensor sensor;
+TEST(SensorWeb, SaysSoWhenAnswersAreErrors) {
+  const FakeSensor sensor;
   const auto missing = sensor.web().diagnostics();
   ASSERT_FALSE(missing);
   EXPECT_NE(missing.error().message.find("404"), std::string::npos);
-  sensor.server().Get("/cgi/diag.json", [](const httplib::Request&, httplib::Response& answer) {
+  EXPECT_FALSE(sensor.web().post("/cgi/nothing", "a=b"));
+}
+
+TEST(SensorWeb, SaysSoWhenAnswersAreNoJson) {
+  const FakeSensor sensor([](const httplib::Request&, httplib::Response& answer) {
     answer.set_content("<html>login</html>", "text/html");
   });
   const auto html = sensor.web().diagnostics();
   ASSERT_FALSE(html);
   EXPECT_NE(html.error().message.find("JSON"), std::string::npos);
-  EXPECT_FALSE(sensor.web().post("/cgi/nothing", "a=b"));
 }
 
 TEST(SensorWeb, GivesUpOnAnswersWithoutEnd) {
-  FakeSensor sensor;
-  const std::string block(10'000, ' ');
-  sensor.server().Get("/cgi/diag.json", [&](const httplib::Request&, httplib::Response& answer) {
-    answer.set_chunked_content_provider("text/plain", [&](std::size_t, httplib::DataSink& sink) {
-      return sink.write(block.data(), block.size());
-    });
+  const std::string block(10'000, ' ');  // outlives the sensor, which goes on sending it
+  const FakeSensor sensor([&block](const httplib::Request&, httplib::Response& answer) {
+    answer.set_chunked_content_provider("text/plain",
+                                        [&block](std::size_t, httplib::DataSink& sink) {
+                                          return sink.write(block.data(), block.size());
+                                        });
   });
   const auto endless = sensor.web().diagnostics();
   ASSERT_FALSE(endless);
@@ -211,8 +215,7 @@ TEST(SensorWeb, GivesUpOnAnswersWithoutEnd) {
 }
 
 TEST(SensorWeb, GivesUpOnAnswersThatTrickle) {
-  FakeSensor sensor;
-  sensor.server().Get("/cgi/diag.json", [](const httplib::Request&, httplib::Response& answer) {
+  const FakeSensor sensor([](const httplib::Request&, httplib::Response& answer) {
     answer.set_chunked_content_provider("text/plain", [](std::size_t, httplib::DataSink& sink) {
       std::this_thread::sleep_for(20ms);
       return sink.write(" ", 1);
