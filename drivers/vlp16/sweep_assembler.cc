@@ -89,9 +89,8 @@ void SweepAssembler::begin_at_packet(const DecodedPacket& packet) {
 double SweepAssembler::unwrapped(const DecodedPacket& packet) const {
   const auto gap = static_cast<double>((packet.first_firing - before_.time).count());
   const double expected = before_.azimuth_deg + before_.rate_deg_per_ns * gap;
-  const double azimuth =
-      packet.first_azimuth_deg + 360.0 * std::round((expected - packet.first_azimuth_deg) / 360.0);
-  return azimuth;
+  return packet.first_azimuth_deg +
+         360.0 * std::round((expected - packet.first_azimuth_deg) / 360.0);
 }
 
 void SweepAssembler::pass_seam_between_packets(double azimuth_deg, SensorTime time) {
@@ -152,8 +151,9 @@ void SweepAssembler::finish(Revolution::End end, SensorTime when) {
   const std::uint32_t epoch = current_.epoch;
   const HostTime arrival = current_.arrival;
   // The seam may be where a stream begins: nothing was gathered before it.
-  if (current_.received_firings > 0 || !current_.returns.empty())
+  if (current_.received_firings > 0 || !current_.returns.empty()) {
     finished_.push_back(std::move(current_));
+  }
   current_ = {};
   current_.returns.reserve(usual_returns + usual_returns / 8);
   current_.epoch = epoch;
