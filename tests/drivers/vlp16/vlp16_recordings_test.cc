@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "drivers/vlp16/sweep_assembler.h"
 #include "drivers/vlp16/vlp16_decoder.h"
 #include "tests/drivers/datasets/recordings.h"
 
@@ -70,6 +71,31 @@ TEST(Vlp16Recording, AzimuthAndTimeGrowFromFiringToFiring) {
       any = true;
     }
   }
+}
+
+TEST(Vlp16Recording, MakesThirteenRevolutionsWithoutAGap) {
+  const auto packets = recorded_packets();
+  if (packets.empty()) GTEST_SKIP() << "no recording (SPARSIGHT_DATA)";
+  Vlp16Decoder decoder;
+  SweepAssembler assembler;
+  DecodedPacket out;
+  for (const LidarPacket& packet : packets) {
+    ASSERT_TRUE(decoder.decode(packet, out));
+    assembler.add(out);
+  }
+  assembler.flush();
+  std::uint64_t received = 0;
+  int whole = 0;
+  while (const auto revolution = assembler.take()) {
+    received += revolution->received_firings;
+    if (!revolution->whole) continue;
+    ++whole;
+    EXPECT_NEAR(static_cast<double>(revolution->received_firings),
+                static_cast<double>(revolution->expected_firings), 17.0);
+    EXPECT_NEAR(to_seconds(revolution->end - revolution->begin), 0.1, 0.002);
+  }
+  EXPECT_EQ(whole, 13) << "and a part at each end";
+  EXPECT_EQ(received, 1000U * 384U);
 }
 
 TEST(Vlp16Recording, NextPacketBeginsWhereTheOneBeforeWasSaidToEnd) {
