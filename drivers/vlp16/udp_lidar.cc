@@ -2,6 +2,7 @@
 
 #include <poll.h>
 
+#include <algorithm>
 #include <array>
 #include <ctime>
 #include <utility>
@@ -111,6 +112,19 @@ void UdpLidar::receive() {
       take<LidarPacket>(data.front(), counters_.packets);
       data = data.subspan(1);
     }
+  }
+  put_arrivals_in_order();
+}
+
+// What the kernel did not stamp in time it stamps when it is read, after what came later: a
+// datagram cannot have come after the one behind it in the same queue.
+void UdpLidar::put_arrivals_in_order() {
+  std::array<HostTime, std::variant_size_v<LidarMessage>> next;
+  next.fill(HostTime::max());
+  for (auto message = pending_.rbegin(); message != pending_.rend(); ++message) {
+    HostTime& of_kind = next[message->index()];
+    std::visit([&](auto& packet) { of_kind = packet.arrival = std::min(packet.arrival, of_kind); },
+               *message);
   }
 }
 

@@ -42,6 +42,7 @@ class UdpLidar final : public Lidar {
   void receive();
   template <typename Packet>
   void take(const ReceivedDatagram& datagram, std::uint64_t& count);
+  void put_arrivals_in_order();
   bool wait(std::chrono::nanoseconds patience) const;
   std::optional<LidarMessage> pop();
 
