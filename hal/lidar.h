@@ -63,7 +63,8 @@ struct DecodedPacket {
   SensorTime last_firing;
   std::uint32_t epoch = 0;           // counts jumps of the sensor's clock
   std::uint32_t lost_before = 0;     // packets missing between the one before and this one
-  double turned_deg = 0.0;           // how far the head turns within the packet
+  double first_azimuth_deg = 0.0;    // of the first firing, whether or not it has a return
+  double turned_deg = 0.0;           // from there to where the next packet begins
   std::vector<TimedReturn> returns;  // in the order of firing; firings without return are left out
 };
 

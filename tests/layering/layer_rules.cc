@@ -54,10 +54,18 @@ const std::vector<LibraryRule> kLibraryRules = {
      "OpenCV reads and writes images, in .cc files of drivers and tools only"},
     {{"ceres/"}, {}, false, "the solvers are the project's own"},
     {{"CLI/"}, {"tools"}, true, "the command line belongs to tools"},
-    {{"toml++/", "toml.hpp", "nlohmann/"},
+    {{"toml++/", "toml.hpp"},
      {"tools"},
      true,
      "one place parses files, and it is in tools; objects take values"},
+    {{"nlohmann/"},
+     {"drivers", "tools"},
+     true,
+     "JSON is what tools write and what devices answer; the rest takes values"},
+    {{"pcap", "httplib.h"},
+     {"drivers"},
+     false,
+     "devices and their captures are the drivers' business, behind hal's interfaces"},
 };
 
 }  // namespace

@@ -103,6 +103,12 @@ TEST(LibraryRules, KeepEachLibraryInItsLayer) {
   EXPECT_THAT(check_third_party({including("tools/a.cc", "<toml++/toml.h>")}), IsEmpty());
   EXPECT_THAT(check_third_party({including("slam/a.cc", "<toml++/toml.h>")}),
               ElementsAre(HasSubstr("objects take values")));
+  EXPECT_THAT(check_third_party({including("drivers/a.cc", "<nlohmann/json.hpp>")}), IsEmpty());
+  EXPECT_THAT(check_third_party({including("slam/a.cc", "<nlohmann/json.hpp>")}),
+              ElementsAre(HasSubstr("slam/a.cc:1")));
+  EXPECT_THAT(check_third_party({including("drivers/a.cc", "<pcap/pcap.h>")}), IsEmpty());
+  EXPECT_THAT(check_third_party({including("drivers/a.h", "<httplib.h>")}),
+              ElementsAre(HasSubstr("drivers/a.h:1")));
 }
 
 TEST(EstimationRules, RefuseThreadsFilesAndClocksInSlamOnly) {
