@@ -26,7 +26,7 @@ EdgeMatcher::EdgeMatcher(const EdgeMatcherConfig& config)
 
 void EdgeMatcher::add(const Edge& edge) {
   if (const auto mark = pairing_.add(edge)) {
-    train_.add(mark->time, mark->half_length, mark->doubtful);
+    train_.add(mark->start, mark->length, mark->doubtful);
   }
 }
 
@@ -138,9 +138,21 @@ EdgeMatcher::Fit EdgeMatcher::fit(nanoseconds delay) const {
 
 nanoseconds EdgeMatcher::delay_of(const CameraFrame& frame, std::int64_t offset) const {
   const std::int64_t index = static_cast<std::int64_t>(frame.sequence) + offset;
-  // The place, not the pulse: which is there for lost ones too, and knows no outliers.
-  const nanoseconds half = config_.exposure_active ? train_.half_length() : frame.exposure / 2;
-  return time_of(frame) - (train_.place_of(index).time + to_middle(frame) + half);
+  // The place, not the pulse: it is there for lost ones too, and knows no outliers.
+  const nanoseconds length = length_of(frame, index);
+  return time_of(frame) - (train_.place_of(index).time + delay_of_trigger() + length);
+}
+
+// Of the exposure: as its edges have it, or else as the camera says.
+nanoseconds EdgeMatcher::length_of(const CameraFrame& frame, std::int64_t index) const {
+  if (!config_.exposure_active) return frame.exposure;
+  const std::optional<Pulse> pulse = train_.find(index);
+  if (pulse && !pulse->doubtful) return pulse->length;
+  return frame.exposure > nanoseconds(0) ? frame.exposure : train_.length();
+}
+
+nanoseconds EdgeMatcher::delay_of_trigger() const {
+  return config_.exposure_active ? nanoseconds(0) : config_.trigger_delay;
 }
 
 std::optional<nanoseconds> EdgeMatcher::least_delay() const {
@@ -157,10 +169,6 @@ void EdgeMatcher::learn_delay(nanoseconds delay) {
   }
   const auto excess = static_cast<double>((delay - *least_delay()).count());
   mean_excess_ns_ = kExcessMemory * mean_excess_ns_ + (1.0 - kExcessMemory) * excess;
-}
-
-nanoseconds EdgeMatcher::to_middle(const CameraFrame& frame) const {
-  return config_.exposure_active ? nanoseconds(0) : config_.trigger_delay + frame.exposure / 2;
 }
 
 // A sensor that is still exposing ignores the next trigger: which of them made a frame is unknown.
@@ -189,7 +197,7 @@ std::optional<Stamp> EdgeMatcher::stamp_of(const CameraFrame& frame) const {
     stamp.uncertainty += train_.period() / 4;  // somewhere between the trigger and the next
     stamp.quality = StampQuality::kEstimated;
   }
-  stamp.mapped += to_middle(frame);
+  stamp.mapped += delay_of_trigger() + length_of(frame, index) / 2;
   if (last_mapped_ && stamp.mapped <= *last_mapped_) return std::nullopt;
   return stamp;
 }

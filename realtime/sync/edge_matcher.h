@@ -88,7 +88,8 @@ class EdgeMatcher {
   void emit(const Frame& frame, std::vector<StampedFrame>& out);
   void emit_unsynchronized(const Frame& frame, std::vector<StampedFrame>& out);
   std::optional<Stamp> stamp_of(const CameraFrame& frame) const;
-  std::chrono::nanoseconds to_middle(const CameraFrame& frame) const;
+  std::chrono::nanoseconds length_of(const CameraFrame& frame, std::int64_t index) const;
+  std::chrono::nanoseconds delay_of_trigger() const;
   bool exposure_fits(const CameraFrame& frame) const;
 
   EdgeMatcherConfig config_;

@@ -10,9 +10,9 @@ namespace sparsight {
 
 // What one exposure left on the line.
 struct ExposureMark {
-  HostTime time;  // the middle of the exposure; the trigger's edge where the line is a trigger
-  std::chrono::nanoseconds half_length{0};  // zero where the line is a trigger
-  bool doubtful = false;                    // one of its two edges is missing
+  HostTime start;                      // the trigger's edge where the line is a trigger
+  std::chrono::nanoseconds length{0};  // zero where the line is a trigger
+  bool doubtful = false;               // one of its two edges is missing
 };
 
 // Edges to exposures. Of a line that is active during the exposure a rise and a fall make one; of a
@@ -30,7 +30,7 @@ class ExposurePairing {
 
   bool exposure_active_;
   std::optional<HostTime> rise_;
-  std::optional<std::chrono::nanoseconds> half_length_;  // of the last complete one
+  std::optional<std::chrono::nanoseconds> length_;  // of the last complete one
 };
 
 }  // namespace sparsight

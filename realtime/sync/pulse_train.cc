@@ -8,7 +8,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr double kAgreement = 0.1;         // of intervals, while learning
+constexpr double kAgreement = 0.02;        // of intervals, while learning
 constexpr double kSigmasOff = 6.0;         // farther from its place a pulse is doubtful,
 constexpr double kLeastOffNs = 200'000.0;  // unless it is this near
 constexpr double kLeastSigmaNs = 1'000.0;
@@ -25,18 +25,17 @@ nanoseconds rounded(double ns) { return nanoseconds(std::llround(ns)); }
 nanoseconds PulseTrain::period() const { return rounded(period_ns_); }
 nanoseconds PulseTrain::jitter() const { return rounded(sigma_ns_); }
 
-void PulseTrain::add(HostTime time, nanoseconds half_length, bool doubtful) {
+void PulseTrain::add(HostTime time, nanoseconds length, bool doubtful) {
   ++counters_.pulses;
-  if (!lately_.empty() && time <= lately_.back()) {
+  if (!lately_.empty() && time <= lately_.back().time) {
     ++counters_.doubled;
     return;
   }
   if (!doubtful) {
-    lately_.push_back(time);
+    lately_.push_back({time, length});
     if (lately_.size() > config_.intervals_to_learn + 1) lately_.pop_front();
   }
   if (!regular_) {
-    half_length_ = half_length;
     if (!doubtful) learn();
     return;
   }
@@ -44,14 +43,13 @@ void PulseTrain::add(HostTime time, nanoseconds half_length, bool doubtful) {
   const nanoseconds off = time - place_of(index).time;
   const bool in_place = std::abs(ns(off)) < config_.place * period_ns_;
   if (index - last_index_ > config_.max_gap) return forget();
-  if (in_place && index <= last_index_) return double_up(index, off);
-  if (!in_place) {
-    ++counters_.strange;
-    if (!doubtful && estranged(time)) forget();
-    return;
+  if (in_place && index > last_index_) {
+    return take({.index = index, .time = time, .length = length, .doubtful = doubtful, .off = off});
   }
-  take(
-      {.index = index, .time = time, .half_length = half_length, .doubtful = doubtful, .off = off});
+  ++(in_place ? counters_.doubled : counters_.strange);
+  // Where a pulse stands that does not belong, its neighbour may be cut short, or be the wrong one.
+  doubt(last_index_, in_place ? off : nanoseconds(0));
+  if (!in_place && !doubtful && estranged(time)) forget();
 }
 
 void PulseTrain::forget() {
@@ -61,52 +59,54 @@ void PulseTrain::forget() {
   stranger_count_ = 0;
   strangeness_ = 0;
   // Of what came before a pause nothing is left to learn from.
-  const HostTime newest = lately_.back();
-  std::erase_if(lately_, [&](HostTime t) {
-    return ns(newest - t) > static_cast<double>(config_.max_gap) * period_ns_;
+  const HostTime newest = lately_.back().time;
+  std::erase_if(lately_, [&](const Sighting& s) {
+    return ns(newest - s.time) > static_cast<double>(config_.max_gap) * period_ns_;
   });
   learn();
 }
 
 void PulseTrain::learn() {
   if (lately_.size() <= config_.intervals_to_learn) return;
-  const double mean =
-      ns(lately_.back() - lately_.front()) / static_cast<double>(config_.intervals_to_learn);
-  for (std::size_t i = 1; i < lately_.size(); ++i) {
-    if (std::abs(ns(lately_[i] - lately_[i - 1]) - mean) > kAgreement * mean) return;
+  const double mean = ns(lately_.back().time - lately_.front().time) /
+                      static_cast<double>(config_.intervals_to_learn);
+  for (std::size_t i = 0; i < lately_.size(); ++i) {
+    if (ns(lately_[i].length) >= mean) return;
+    const double place = static_cast<double>(i) * mean;
+    if (std::abs(ns(lately_[i].time - lately_[0].time) - place) > kAgreement * mean) return;
   }
   regular_ = true;
   ++generation_;
   for (std::size_t i = 0; i < lately_.size(); ++i) {
     const auto index = static_cast<std::int64_t>(i);
-    samples_.push_back({index, lately_[i]});
+    samples_.push_back({index, lately_[i].time});
     recent_[i % recent_.size()] =
-        Pulse{.index = index, .time = lately_[i], .half_length = half_length_};
+        Pulse{.index = index, .time = lately_[i].time, .length = lately_[i].length};
     last_index_ = index;
   }
+  length_ = lately_.back().length;
   fit();
 }
 
 void PulseTrain::take(Pulse pulse) {
   counters_.lost += static_cast<std::uint64_t>(pulse.index - last_index_ - 1);
+  // Only now that the next has come is it sure that nothing was wrong with the last one.
+  if (const auto last = find(last_index_); last && !last->doubtful) length_ = last->length;
   last_index_ = pulse.index;
   const bool off = std::abs(ns(pulse.off)) > std::max(kSigmasOff * sigma_ns_, kLeastOffNs);
   // A train whose pulses are all off has moved.
   if (off && !pulse.doubtful && estranged(pulse.time)) return forget();
-  pulse.doubtful |= off;
+  // Two that run into one another have lost what was between them.
+  pulse.doubtful |= off || ns(pulse.length) >= period_ns_;
   recent_[static_cast<std::size_t>(pulse.index) % recent_.size()] = pulse;
   if (pulse.doubtful) return;
   strangeness_ = std::max(0, strangeness_ - 1);
-  half_length_ = pulse.half_length;
   samples_.push_back({pulse.index, pulse.time});
   if (samples_.size() > config_.pulses_in_fit) samples_.pop_front();
   fit();
 }
 
-// Which of the two is the true one cannot be told.
-void PulseTrain::double_up(std::int64_t index, nanoseconds off) {
-  ++counters_.doubled;
-  if (index < 0) return;
+void PulseTrain::doubt(std::int64_t index, nanoseconds off) {
   auto& slot = recent_[static_cast<std::size_t>(index) % recent_.size()];
   if (!slot || slot->index != index) return;
   slot->doubtful = true;

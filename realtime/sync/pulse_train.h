@@ -21,7 +21,7 @@ struct PulseTrainConfig {
 struct Pulse {
   std::int64_t index = 0;  // counts periods, lost pulses included
   HostTime time;
-  std::chrono::nanoseconds half_length{0};  // of what is marked, around `time`
+  std::chrono::nanoseconds length{0};  // of what begins with it
   // Not to be taken at its word: incomplete, doubled, or off its place by more than the rest.
   bool doubtful = false;
   std::chrono::nanoseconds off{0};  // distance from its place
@@ -47,7 +47,7 @@ class PulseTrain {
   explicit PulseTrain(const PulseTrainConfig& config = {}) : config_(config) {}
 
   // In the order of their times.
-  void add(HostTime time, std::chrono::nanoseconds half_length, bool doubtful);
+  void add(HostTime time, std::chrono::nanoseconds length, bool doubtful);
 
   bool regular() const { return regular_; }  // a period is known; what follows is valid only then
   std::uint32_t generation() const { return generation_; }
@@ -60,8 +60,8 @@ class PulseTrain {
   // A pulse that fits no place lies within half a period of this one, which is empty: perhaps the
   // train has moved.
   bool disputed(std::int64_t index) const;
-  std::chrono::nanoseconds half_length() const { return half_length_; }  // of the last good pulse
-  std::chrono::nanoseconds jitter() const;  // one sigma around the model
+  std::chrono::nanoseconds length() const { return length_; }  // of a good pulse lately
+  std::chrono::nanoseconds jitter() const;                     // one sigma around the model
   const PulseCounters& counters() const { return counters_; }
 
  private:
@@ -69,11 +69,15 @@ class PulseTrain {
     std::int64_t index;
     HostTime time;
   };
+  struct Sighting {
+    HostTime time;
+    std::chrono::nanoseconds length;
+  };
 
   void forget();
   void learn();
   void take(Pulse pulse);
-  void double_up(std::int64_t index, std::chrono::nanoseconds off);
+  void doubt(std::int64_t index, std::chrono::nanoseconds off);
   bool estranged(HostTime time);
   void fit();
 
@@ -81,8 +85,8 @@ class PulseTrain {
   bool regular_ = false;
   std::uint32_t generation_ = 0;
   std::int64_t last_index_ = 0;
-  std::chrono::nanoseconds half_length_{0};
-  std::deque<HostTime> lately_;  // good pulses of any place, to learn from
+  std::chrono::nanoseconds length_{0};
+  std::deque<Sighting> lately_;  // good pulses of any place, to learn from
   std::deque<Sample> samples_;
   std::array<std::optional<Pulse>, 64> recent_;
   std::array<HostTime, 4> strangers_{};

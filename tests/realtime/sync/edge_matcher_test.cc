@@ -53,8 +53,8 @@ MatcherRun run_matcher(const MadeCamera& camera, const EdgeMatcherConfig& config
       matcher.add(std::get<std::shared_ptr<const CameraFrame>>(event), run.frames);
     }
   }
-  run.state = matcher.state();
   matcher.finish(run.frames);
+  run.state = matcher.state();
   return run;
 }
 MatcherRun run_matcher(const MadeCamera& camera) { return run_matcher(camera, matcher_config({})); }
@@ -154,8 +154,9 @@ const MatcherCase kMatcherCases[] = {
     {"RepeatedRise", [](MadeCamera& c) { c.shoot({.second_rise_at = milliseconds(1)}); }, 1, 0},
     {"GlitchAfterTheExposure", [](MadeCamera& c) { c.shoot({.glitch_at = milliseconds(7)}); }, 1,
      0},
-    {"GlitchFarFromAnyExposure", [](MadeCamera& c) { c.shoot({.glitch_at = milliseconds(18)}); }, 0,
+    {"GlitchWithinTheExposure", [](MadeCamera& c) { c.shoot({.glitch_at = milliseconds(3)}); }, 1,
      0},
+    {"GlitchAfterTheFrame", [](MadeCamera& c) { c.shoot({.glitch_at = milliseconds(24)}); }, 0, 0},
     {"LateFrame", [](MadeCamera& c) { c.shoot({.late = milliseconds(47)}); }, 0, 0},
     {"VeryLateFrame", [](MadeCamera& c) { c.shoot({.late = milliseconds(120)}); }, 0, 0},
     {"LateByAWholePeriod", [](MadeCamera& c) { c.shoot({.late = microseconds(33'333)}); }, 0, 0},

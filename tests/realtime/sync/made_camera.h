@@ -30,7 +30,7 @@ struct MadeFault {
   bool lose_frame = false;                     // with a gap in the sequence
   bool ignore_trigger = false;                 // the sensor makes no frame, and counts none
   std::chrono::nanoseconds late{0};            // of the frame
-  std::chrono::nanoseconds glitch_at{0};       // a short pulse this far after the exposure's start
+  std::chrono::nanoseconds glitch_at{0};       // the line changes shortly, this far after the start
   std::chrono::nanoseconds second_rise_at{0};  // a repeated rise
 };
 
@@ -48,8 +48,9 @@ class MadeCamera {
     if (!fault.lose_rise) edge(true, trigger);
     if (options_.exposure_active && !fault.lose_fall) edge(false, start + options_.exposure);
     if (fault.glitch_at.count() != 0) {
-      put({EdgeLine::kExposure, true, trigger + fault.glitch_at});
-      put({EdgeLine::kExposure, false, trigger + fault.glitch_at + std::chrono::microseconds(20)});
+      const bool within = options_.exposure_active && fault.glitch_at < options_.exposure;
+      put({EdgeLine::kExposure, !within, trigger + fault.glitch_at});
+      put({EdgeLine::kExposure, within, trigger + fault.glitch_at + std::chrono::microseconds(20)});
     }
     if (fault.second_rise_at.count() != 0) {
       put({EdgeLine::kExposure, true, trigger + fault.second_rise_at});
