@@ -88,7 +88,7 @@ void SlidingEnvelope::clear() {
   current_.clear();
   next_.clear();
   line_.reset();
-  mean_residual_ns_ = 0.0;
+  mean_residual_ns_ = kExpectedDelayNs;
   early_ = 0;
   block_empty_ = true;
   lifted_blocks_ = 0;

@@ -64,6 +64,8 @@ class SlidingEnvelope {
   std::uint32_t restarts() const { return restarts_; }
 
  private:
+  static constexpr double kExpectedDelayNs = 1e6;  // before any is known
+
   bool stepped(double residual_ns, SensorTime device);
   void restart();
 
@@ -71,7 +73,7 @@ class SlidingEnvelope {
   ArrivalEnvelope current_;
   ArrivalEnvelope next_;
   std::optional<ClockLine> line_;
-  double mean_residual_ns_ = 0.0;
+  double mean_residual_ns_ = kExpectedDelayNs;
   int early_ = 0;
   SensorTime block_start_;
   double least_in_block_ns_ = 0.0;

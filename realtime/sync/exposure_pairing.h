@@ -12,7 +12,7 @@ namespace sparsight {
 struct ExposureMark {
   HostTime start;                      // the trigger's edge where the line is a trigger
   std::chrono::nanoseconds length{0};  // zero where the line is a trigger
-  bool doubtful = false;               // one of its two edges is missing
+  bool doubtful = false;               // one of its two edges is missing, or may be a glitch
 };
 
 // Edges to exposures. Of a line that is active during the exposure a rise and a fall make one; of a
@@ -30,6 +30,7 @@ class ExposurePairing {
 
   bool exposure_active_;
   std::optional<HostTime> rise_;
+  bool rise_doubtful_ = false;
   std::optional<std::chrono::nanoseconds> length_;  // of the last complete one
 };
 
