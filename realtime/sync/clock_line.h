@@ -21,7 +21,8 @@ struct ClockLine {
   }
   SensorTime sensor_at(HostTime time) const {
     const auto since = static_cast<double>((time - host).count());
-    return sensor + (time - host) - std::chrono::nanoseconds(std::llround((rate - 1.0) / rate * since));
+    return sensor + (time - host) -
+           std::chrono::nanoseconds(std::llround((rate - 1.0) / rate * since));
   }
 };
 

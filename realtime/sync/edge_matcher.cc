@@ -8,7 +8,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr int kDelayBlock = 64;  // frames; the least delay is that of one to two blocks
+constexpr int kDelayBlock = 64;     // frames; the least delay is that of one to two blocks
+constexpr double kNearLeast = 0.1;  // of the period
 constexpr double kExcessMemory = 0.98;
 constexpr nanoseconds kMostDriverLag{2'000'000'000};
 constexpr nanoseconds kUnknownTime{33'000'000};  // about a period
@@ -87,9 +88,11 @@ void EdgeMatcher::associate(std::vector<StampedFrame>& out) {
   }
   ++counts_.associations;
   least_before_ = least_now_ = std::nullopt;
+  // They vouch for those to come, not for themselves: a few frames that were all late, before the
+  // count slipped by as much, look like the first of those after it.
   for (const Frame& frame : held_) {
     learn_delay(delay_of(*frame, *offset_));
-    emit(frame, out);
+    emit_unsynchronized(frame, out);
   }
   held_.clear();
 }
@@ -109,24 +112,25 @@ std::int64_t EdgeMatcher::whole_periods(nanoseconds delay) const {
 std::optional<std::int64_t> EdgeMatcher::common_offset() const {
   const auto middle = static_cast<std::int64_t>(std::floor(train_.index_at(time_of(*held_[0]))));
   const std::int64_t offset = middle - static_cast<std::int64_t>(held_[0]->sequence);
-  nanoseconds least = nanoseconds::max();
-  nanoseconds most = nanoseconds::min();
-  std::size_t seen = 0;
-  for (const Frame& frame : held_) {
-    const nanoseconds delay = delay_of(*frame, offset);
-    least = std::min(least, delay);
-    most = std::max(most, delay);
-  }
+  std::vector<nanoseconds> delays;
+  delays.reserve(held_.size());
+  for (const Frame& frame : held_) delays.push_back(delay_of(*frame, offset));
+  const auto [least, most] = std::minmax_element(delays.begin(), delays.end());
   const double period = static_cast<double>(train_.period().count());
-  if (static_cast<double>((most - least).count()) >= config_.max_spread * period) {
+  if (static_cast<double>((*most - *least).count()) >= config_.max_spread * period) {
     return std::nullopt;
   }
-  const std::int64_t shift = whole_periods(least);
-  for (const Frame& frame : held_) {
-    if (train_.find(static_cast<std::int64_t>(frame->sequence) + offset + shift)) ++seen;
-  }
-  if (2 * seen < held_.size()) return std::nullopt;  // too little to judge by
-  return offset + shift;
+  // Most are about as fast as the fastest: it is no stray.
+  const auto fast = std::count_if(delays.begin(), delays.end(), [&](nanoseconds delay) {
+    return static_cast<double>((delay - *least).count()) < kNearLeast * period;
+  });
+  const std::int64_t found = offset + whole_periods(*least);
+  const auto seen = std::count_if(held_.begin(), held_.end(), [&](const Frame& frame) {
+    return train_.find(static_cast<std::int64_t>(frame->sequence) + found).has_value();
+  });
+  const auto half = static_cast<std::ptrdiff_t>(held_.size() / 2);
+  if (fast < half || seen < half) return std::nullopt;
+  return found;
 }
 
 EdgeMatcher::Fit EdgeMatcher::fit(nanoseconds delay) const {

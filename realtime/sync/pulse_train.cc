@@ -9,6 +9,7 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr double kAgreement = 0.02;        // of intervals, while learning
+constexpr double kCrowded = 0.5;           // of the period, between pulses
 constexpr double kSigmasOff = 6.0;         // farther from its place a pulse is doubtful,
 constexpr double kLeastOffNs = 200'000.0;  // unless it is this near
 constexpr double kLeastSigmaNs = 1'000.0;
@@ -27,12 +28,14 @@ nanoseconds PulseTrain::jitter() const { return rounded(sigma_ns_); }
 
 void PulseTrain::add(HostTime time, nanoseconds length, bool doubtful) {
   ++counters_.pulses;
-  if (!lately_.empty() && time <= lately_.back().time) {
+  if (newest_ && time <= *newest_) {
     ++counters_.doubled;
     return;
   }
+  const nanoseconds since_previous = newest_ ? time - *newest_ : nanoseconds::max();
+  newest_ = time;
   if (!doubtful) {
-    lately_.push_back({time, length});
+    lately_.push_back({time, length, since_previous});
     if (lately_.size() > config_.intervals_to_learn + 1) lately_.pop_front();
   }
   if (!regular_) {
@@ -59,9 +62,8 @@ void PulseTrain::forget() {
   stranger_count_ = 0;
   strangeness_ = 0;
   // Of what came before a pause nothing is left to learn from.
-  const HostTime newest = lately_.back().time;
   std::erase_if(lately_, [&](const Sighting& s) {
-    return ns(newest - s.time) > static_cast<double>(config_.max_gap) * period_ns_;
+    return ns(*newest_ - s.time) > static_cast<double>(config_.max_gap) * period_ns_;
   });
   learn();
 }
@@ -78,11 +80,13 @@ void PulseTrain::learn() {
   regular_ = true;
   ++generation_;
   for (std::size_t i = 0; i < lately_.size(); ++i) {
-    const auto index = static_cast<std::int64_t>(i);
-    samples_.push_back({index, lately_[i].time});
-    recent_[i % recent_.size()] =
-        Pulse{.index = index, .time = lately_[i].time, .length = lately_[i].length};
-    last_index_ = index;
+    const Sighting& seen = lately_[i];
+    last_index_ = static_cast<std::int64_t>(i);
+    // The first may itself be the second of two at one place.
+    const bool doubtful = ns(seen.since_previous) < kCrowded * mean;
+    recent_[i] =
+        Pulse{.index = last_index_, .time = seen.time, .length = seen.length, .doubtful = doubtful};
+    if (!doubtful) samples_.push_back({last_index_, seen.time});
   }
   length_ = lately_.back().length;
   fit();

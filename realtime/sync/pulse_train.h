@@ -72,6 +72,7 @@ class PulseTrain {
   struct Sighting {
     HostTime time;
     std::chrono::nanoseconds length;
+    std::chrono::nanoseconds since_previous;
   };
 
   void forget();
@@ -86,6 +87,7 @@ class PulseTrain {
   std::uint32_t generation_ = 0;
   std::int64_t last_index_ = 0;
   std::chrono::nanoseconds length_{0};
+  std::optional<HostTime> newest_;
   std::deque<Sighting> lately_;  // good pulses of any place, to learn from
   std::deque<Sample> samples_;
   std::array<std::optional<Pulse>, 64> recent_;

