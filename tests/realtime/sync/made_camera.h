@@ -69,6 +69,8 @@ class MadeCamera {
   }
   void set_exposure(std::chrono::nanoseconds exposure) { options_.exposure = exposure; }
 
+  void set_damaged(bool damaged) { damaged_ = damaged; }
+
   std::vector<RigEvent> events() const {
     std::vector<RigEvent> sorted = events_;
     std::stable_sort(sorted.begin(), sorted.end(), [](const RigEvent& a, const RigEvent& b) {
@@ -102,6 +104,11 @@ class MadeCamera {
     frame->driver_time = time;
     frame->arrival = time + std::chrono::microseconds(50);
     frame->exposure = options_.exposure;
+    frame->damaged = damaged_;
+    frame->width = 4;
+    frame->height = 2;
+    frame->stride_bytes = 4;
+    frame->bytes.assign(8, static_cast<std::uint8_t>(sequence));
     middles_[frame.get()] = start + options_.exposure / 2;
     events_.emplace_back(std::move(frame));
   }
@@ -112,6 +119,7 @@ class MadeCamera {
   HostTime last_delivered_{};
   std::uint32_t sequence_ = 0;
   std::uint32_t epoch_ = 0;
+  bool damaged_ = false;
   std::vector<RigEvent> events_;
   std::map<const CameraFrame*, HostTime> middles_;
 };

@@ -90,6 +90,16 @@ class MadeLidar {
     return static_cast<float>(turned - 360.0 * std::floor(turned / 360.0));
   }
 
+  // A made return's point says when it was fired: milliseconds and nanoseconds from the start.
+  static Eigen::Vector3f written(SensorTime fired) {
+    const std::int64_t ns = (fired - kStart).count();
+    return {static_cast<float>(ns / 1'000'000), static_cast<float>(ns % 1'000'000), 0.0F};
+  }
+  static SensorTime read(const Eigen::Vector3f& p_lidar) {
+    return kStart + std::chrono::milliseconds(std::llround(p_lidar.x())) +
+           std::chrono::nanoseconds(std::llround(p_lidar.y()));
+  }
+
   static constexpr SensorTime kStart{std::chrono::seconds(700)};
   static constexpr std::chrono::nanoseconds kHostStart{std::chrono::seconds(4000)};
 
@@ -104,7 +114,7 @@ class MadeLidar {
         r.fired = packet.first_firing + s * kSequence + static_cast<std::int64_t>(k) * kFiring;
         r.azimuth_deg = azimuth_at(r.fired);
         r.ring = static_cast<std::uint16_t>(k);
-        r.p_lidar = Eigen::Vector3f(5.0F, 0.0F, static_cast<float>(k));
+        r.p_lidar = written(r.fired);
       }
     }
   }
