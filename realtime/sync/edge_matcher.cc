@@ -115,16 +115,17 @@ std::optional<std::int64_t> EdgeMatcher::common_offset() const {
   std::vector<nanoseconds> delays;
   delays.reserve(held_.size());
   for (const Frame& frame : held_) delays.push_back(delay_of(*frame, offset));
-  const auto [least, most] = std::minmax_element(delays.begin(), delays.end());
+  const nanoseconds least = *std::min_element(delays.begin(), delays.end());
+  const nanoseconds most = *std::max_element(delays.begin(), delays.end());
   const double period = static_cast<double>(train_.period().count());
-  if (static_cast<double>((*most - *least).count()) >= config_.max_spread * period) {
+  if (static_cast<double>((most - least).count()) >= config_.max_spread * period) {
     return std::nullopt;
   }
   // Most are about as fast as the fastest: it is no stray.
   const auto fast = std::count_if(delays.begin(), delays.end(), [&](nanoseconds delay) {
-    return static_cast<double>((delay - *least).count()) < kNearLeast * period;
+    return static_cast<double>((delay - least).count()) < kNearLeast * period;
   });
-  const std::int64_t found = offset + whole_periods(*least);
+  const std::int64_t found = offset + whole_periods(least);
   const auto seen = std::count_if(held_.begin(), held_.end(), [&](const Frame& frame) {
     return train_.find(static_cast<std::int64_t>(frame->sequence) + found).has_value();
   });
@@ -232,7 +233,7 @@ void EdgeMatcher::finish(std::vector<StampedFrame>& out) {
 CameraSyncState EdgeMatcher::state() const {
   CameraSyncState state = counts_;
   state.locked = offset_.has_value();
-  state.edges_lost = train_.counters().lost;
+  state.edges_lost = train_.counters().lost + pairing_.incomplete();
   state.edges_doubled = train_.counters().doubled + train_.counters().strange;
   if (train_.regular()) {
     state.period = train_.period();

@@ -37,10 +37,10 @@ struct StampedFrame {
 };
 
 struct CameraSyncState {
-  bool locked = false;             // frames are associated with edges
-  std::uint32_t associations = 0;  // made so far; each is a Stamp epoch
-  std::uint64_t edges_matched = 0;
-  std::uint64_t edges_lost = 0;
+  bool locked = false;              // frames are associated with edges
+  std::uint32_t associations = 0;   // made so far; each is a Stamp epoch
+  std::uint64_t edges_matched = 0;  // exposures whose edges stamped a frame
+  std::uint64_t edges_lost = 0;     // exposures that left no edge, or only one
   std::uint64_t edges_doubled = 0;  // second and stray ones
   std::uint64_t frames = 0;
   std::uint64_t frames_lost = 0;  // gaps in the sequence

@@ -14,6 +14,7 @@ std::optional<ExposureMark> ExposurePairing::begin(HostTime time) {
   const std::optional<HostTime> unfinished = std::exchange(rise_, time);
   // Soon after another rise one of the two is a glitch; later a fall between them was lost.
   rise_doubtful_ = unfinished && (!length_ || time - *unfinished < 2 * *length_);
+  if (unfinished) ++incomplete_;
   if (!unfinished || !length_) return std::nullopt;
   return ExposureMark{.start = *unfinished, .length = *length_, .doubtful = true};
 }
@@ -25,6 +26,7 @@ std::optional<ExposureMark> ExposurePairing::end(HostTime time) {
     if (!mark.doubtful) length_ = mark.length;
     return mark;
   }
+  ++incomplete_;
   if (!length_) return std::nullopt;
   return ExposureMark{.start = time - *length_, .length = *length_, .doubtful = true};
 }

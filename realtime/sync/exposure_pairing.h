@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 
 #include "hal/time.h"
@@ -23,6 +24,7 @@ class ExposurePairing {
 
   // The exposure that is complete with this edge, or known to remain incomplete.
   std::optional<ExposureMark> add(const Edge& edge);
+  std::uint64_t incomplete() const { return incomplete_; }  // exposures of which an edge was lost
 
  private:
   std::optional<ExposureMark> begin(HostTime time);
@@ -31,6 +33,7 @@ class ExposurePairing {
   bool exposure_active_;
   std::optional<HostTime> rise_;
   bool rise_doubtful_ = false;
+  std::uint64_t incomplete_ = 0;
   std::optional<std::chrono::nanoseconds> length_;  // of the last complete one
 };
 

@@ -174,7 +174,9 @@ INSTANTIATE_TEST_SUITE_P(Each, EdgeMatcherFault, ::testing::ValuesIn(kMatcherCas
 TEST(EdgeMatcher, CountsWhatWentMissing) {
   MadeCamera camera;
   camera.shoot_many(40);
-  camera.shoot_many(3, {.lose_rise = true, .lose_fall = true});
+  camera.shoot_many(2, {.lose_rise = true, .lose_fall = true});
+  camera.shoot_many(10);
+  camera.shoot({.lose_rise = true});
   camera.shoot_many(10);
   camera.shoot_many(4, {.lose_frame = true});
   camera.shoot_many(2, {.late = milliseconds(60)});
