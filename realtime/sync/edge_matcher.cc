@@ -12,12 +12,20 @@ constexpr int kDelayBlock = 64;     // frames; the least delay is that of one to
 constexpr double kNearLeast = 0.1;  // of the period
 constexpr double kExcessMemory = 0.98;
 constexpr nanoseconds kMostDriverLag{2'000'000'000};
+constexpr nanoseconds kMostExposure{10'000'000'000};
 constexpr nanoseconds kUnknownTime{33'000'000};  // about a period
 
 // A driver that stamps on another clock, or not at all, leaves the arrival.
 HostTime time_of(const CameraFrame& frame) {
-  const nanoseconds lag = frame.arrival - frame.driver_time;
-  return lag >= nanoseconds(0) && lag < kMostDriverLag ? frame.driver_time : frame.arrival;
+  const bool plausible =
+      frame.driver_time <= frame.arrival && frame.driver_time > frame.arrival - kMostDriverLag;
+  return plausible ? frame.driver_time : frame.arrival;
+}
+
+// Zero where it is not known, or cannot be.
+nanoseconds exposure_of(const CameraFrame& frame) {
+  const bool plausible = frame.exposure > nanoseconds(0) && frame.exposure < kMostExposure;
+  return plausible ? frame.exposure : nanoseconds(0);
 }
 
 }  // namespace
@@ -150,10 +158,10 @@ nanoseconds EdgeMatcher::delay_of(const CameraFrame& frame, std::int64_t offset)
 
 // Of the exposure: as its edges have it, or else as the camera says.
 nanoseconds EdgeMatcher::length_of(const CameraFrame& frame, std::int64_t index) const {
-  if (!config_.exposure_active) return frame.exposure;
+  if (!config_.exposure_active) return exposure_of(frame);
   const std::optional<Pulse> pulse = train_.find(index);
   if (pulse && !pulse->doubtful) return pulse->length;
-  return frame.exposure > nanoseconds(0) ? frame.exposure : train_.length();
+  return exposure_of(frame) > nanoseconds(0) ? exposure_of(frame) : train_.length();
 }
 
 nanoseconds EdgeMatcher::delay_of_trigger() const {
@@ -178,7 +186,7 @@ void EdgeMatcher::learn_delay(nanoseconds delay) {
 
 // A sensor that is still exposing ignores the next trigger: which of them made a frame is unknown.
 bool EdgeMatcher::exposure_fits(const CameraFrame& frame) const {
-  return config_.exposure_active || !train_.regular() || frame.exposure < train_.period();
+  return config_.exposure_active || !train_.regular() || exposure_of(frame) < train_.period();
 }
 
 std::optional<Stamp> EdgeMatcher::stamp_of(const CameraFrame& frame) const {
@@ -198,7 +206,7 @@ std::optional<Stamp> EdgeMatcher::stamp_of(const CameraFrame& frame) const {
     if (pulse) stamp.uncertainty = std::max(stamp.uncertainty, std::chrono::abs(pulse->off));
     stamp.quality = StampQuality::kEstimated;
   }
-  if (!config_.exposure_active && frame.exposure == nanoseconds(0)) {
+  if (!config_.exposure_active && exposure_of(frame) == nanoseconds(0)) {
     stamp.uncertainty += train_.period() / 4;  // somewhere between the trigger and the next
     stamp.quality = StampQuality::kEstimated;
   }

@@ -12,6 +12,7 @@ constexpr double kAgreement = 0.02;        // of intervals, while learning
 constexpr double kCrowded = 0.5;           // of the period, between pulses
 constexpr double kSigmasOff = 6.0;         // farther from its place a pulse is doubtful,
 constexpr double kLeastOffNs = 200'000.0;  // unless it is this near
+constexpr nanoseconds kFarBack{1'000'000'000};
 constexpr double kLeastSigmaNs = 1'000.0;
 // Two points for a pulse that does not fit, one back for one that does: three in a row, or every
 // second one, end the train; a single glitch does not.
@@ -28,6 +29,12 @@ nanoseconds PulseTrain::jitter() const { return rounded(sigma_ns_); }
 
 void PulseTrain::add(HostTime time, nanoseconds length, bool doubtful) {
   ++counters_.pulses;
+  if (newest_ && *newest_ - time > kFarBack) {
+    // The one before was in the future, or a recording's clock was set back.
+    lately_.clear();
+    newest_.reset();
+    if (regular_) forget();
+  }
   if (newest_ && time <= *newest_) {
     ++counters_.doubled;
     return;

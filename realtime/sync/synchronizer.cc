@@ -3,6 +3,12 @@
 #include <utility>
 
 namespace sparsight {
+namespace {
+
+// Sixty years of uptime. A recording may claim any time; within this, differences of two fit.
+constexpr HostTime kEndOfTime{std::chrono::hours(24 * 365 * 60)};
+
+}  // namespace
 
 SyncConfig sync_config(const RigConfig& rig) {
   SyncConfig config;
@@ -21,11 +27,19 @@ Synchronizer::Synchronizer(const RigCalibration& calibration, const SyncConfig& 
       bundler_(calibration.camera, config.bundler, std::move(jpeg)) {}
 
 void Synchronizer::add(const RigEvent& event) {
+  if (const auto* frame = std::get_if<std::shared_ptr<const CameraFrame>>(&event);
+      frame && !*frame) {
+    return;
+  }
+  const HostTime arrival = arrival_of(event);
+  if (arrival < HostTime{} || arrival > kEndOfTime) {
+    ++counts_.events_refused;
+    return;
+  }
   std::visit([this](const auto& e) { handle(e); }, event);
 }
 
 void Synchronizer::handle(const std::shared_ptr<const CameraFrame>& frame) {
-  if (!frame) return;
   if (config_.exposure_source == ExposureSource::kDriverTime) {
     stamp_by_driver(frame);
   } else {
@@ -66,7 +80,8 @@ void Synchronizer::finish() {
 
 void Synchronizer::stamp_by_driver(const std::shared_ptr<const CameraFrame>& frame) {
   ++counts_.camera.frames;
-  if (last_exposure_ && frame->driver_time <= *last_exposure_) {
+  if (frame->driver_time < HostTime{} || frame->driver_time > kEndOfTime ||
+      (last_exposure_ && frame->driver_time <= *last_exposure_)) {
     ++counts_.camera.frames_unsynchronized;
     return;
   }

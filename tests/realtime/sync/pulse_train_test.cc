@@ -111,6 +111,15 @@ TEST(PulseTrain, FindsTheTruePeriodAfterHavingLearnedTwiceThat) {
   EXPECT_EQ(train.period(), milliseconds(100));
 }
 
+TEST(PulseTrain, RecoversFromAPulseInTheFarFuture) {
+  PulseTrain train;
+  add_pulses(train, 0, 8);
+  train.add(kTrainStart + std::chrono::hours(1), milliseconds(1), false);
+  add_pulses(train, 8, 8);
+  EXPECT_TRUE(train.regular());
+  EXPECT_EQ(train.period(), milliseconds(100));
+}
+
 TEST(PulseTrain, IsLessSureOfPlacesFartherAhead) {
   PulseTrain train;
   for (int i = 0; i < 32; ++i) {

@@ -1,6 +1,7 @@
 #include "realtime/sync/synchronizer.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <map>
 
@@ -217,6 +218,32 @@ TEST(Synchronizer, CountsPacketsThatAreNone) {
   synchronizer.add(packet);
   synchronizer.add(std::shared_ptr<const CameraFrame>());
   EXPECT_EQ(synchronizer.state().packets.refused, 1U);
+}
+
+// Recordings can hold anything. Under the sanitizers this is where arithmetic would overflow.
+RC_GTEST_PROP(Synchronizer, TakesAnyTimesAndCounts, ()) {
+  MadeRig rig({}, kSparseLidar);
+  rig.camera.shoot_many(30);
+  rig.run_lidar(seconds(1));
+  Synchronizer synchronizer(MadeRig::calibration(), sync_config({}), rig.decoder());
+  const auto any_time = [] { return HostTime(nanoseconds(*rc::gen::arbitrary<std::int64_t>())); };
+  for (const RigEvent& event : rig.events()) {
+    if (*rc::gen::inRange(0, 10) == 0) {
+      auto frame = std::make_shared<CameraFrame>();
+      frame->sequence = *rc::gen::arbitrary<std::uint32_t>();
+      frame->epoch = *rc::gen::inRange<std::uint32_t>(0, 3);
+      frame->driver_time = any_time();
+      frame->arrival = *rc::gen::arbitrary<bool>() ? any_time() : arrival_of(event);
+      frame->exposure = nanoseconds(*rc::gen::arbitrary<std::int64_t>());
+      synchronizer.add(std::shared_ptr<const CameraFrame>(std::move(frame)));
+      synchronizer.add(Edge{EdgeLine::kPps, *rc::gen::arbitrary<bool>(), any_time()});
+      synchronizer.add(Edge{EdgeLine::kExposure, *rc::gen::arbitrary<bool>(), any_time()});
+      LidarPacket packet{.arrival = any_time()};
+      synchronizer.add(packet);
+    }
+    synchronizer.add(event);
+    while (const auto frame = synchronizer.take()) RC_ASSERT(frame->frame.exposure >= HostTime{});
+  }
 }
 
 }  // namespace
