@@ -36,19 +36,25 @@ McapReader::McapReader(std::unique_ptr<InputFile> file, std::string name, McapSu
     : file_(std::move(file)),
       name_(std::move(name)),
       summary_(std::move(summary)),
-      offset_(summary_.data_start) {}
+      offset_(summary_.data_start) {
+  if (!summary_.indexed) return;
+  for (const mcap::ChunkIndex& chunk : summary_.chunks) chunk_offsets_.push_back(chunk.offset);
+  std::ranges::sort(chunk_offsets_);
+}
 
 std::optional<mcap::Message> McapReader::next() {
   for (;;) {
     if (auto message = next_in_chunk()) return message;
     const std::optional<RecordPlace> place = record_at(*file_, offset_);
-    if (!place || place->opcode == Opcode::kDataEnd || place->opcode == Opcode::kFooter) {
+    if (!place) {
+      faults_.lost_its_place = faults_.lost_its_place || offset_ < summary_.data_end;
       return std::nullopt;
     }
-    if (!place->whole && summary_.indexed) {
+    if (misplaced(*place)) {
       find_place_again();
       continue;
     }
+    if (place->opcode == Opcode::kDataEnd || place->opcode == Opcode::kFooter) return std::nullopt;
     offset_ = place->whole ? place->end() : file_->size();
     if (auto message = take_outer(*place)) return message;
   }
@@ -140,14 +146,17 @@ void McapReader::load_chunk(const RecordPlace& place) {
   left_in_chunk_ = records;
 }
 
+// By a damaged length: no record reaches over the start of a chunk that the index knows.
+bool McapReader::misplaced(const RecordPlace& place) const {
+  if (!summary_.indexed) return false;
+  const auto next = std::ranges::upper_bound(chunk_offsets_, offset_);
+  return !place.whole || (next != chunk_offsets_.end() && *next < place.end());
+}
+
 void McapReader::find_place_again() {
-  std::uint64_t next = UINT64_MAX;
-  for (const mcap::ChunkIndex& chunk : summary_.chunks) {
-    if (chunk.offset > offset_) next = std::min(next, chunk.offset);
-  }
+  const auto next = std::ranges::upper_bound(chunk_offsets_, offset_);
   ++faults_.damaged_records;
-  faults_.lost_its_place = faults_.lost_its_place || next == UINT64_MAX;
-  offset_ = next;
+  offset_ = next == chunk_offsets_.end() ? summary_.data_end : *next;
 }
 
 void McapReader::seek(std::uint64_t log_time) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "drivers/recording/input_file.h"
 #include "drivers/recording/mcap_records.h"
@@ -18,7 +19,7 @@ struct McapFaults {
   std::uint64_t damaged_chunks = 0;    // checksum, compression or size wrong; left out
   std::uint64_t damaged_records = 0;   // of any other kind
   std::uint64_t unknown_channels = 0;  // messages on channels that nothing describes
-  bool lost_its_place = false;         // a length was wrong and no index told where to go on
+  bool lost_its_place = false;         // nothing told where the next record is, or the disk refused
 };
 
 // Reads the messages of an MCAP file in the order they were written. No byte of it is trusted: what
@@ -51,6 +52,7 @@ class McapReader {
   std::optional<mcap::Message> take_message(Bytes content);
   void take_description(mcap::Opcode opcode, Bytes content);
   void load_chunk(const RecordPlace& place);
+  bool misplaced(const RecordPlace& place) const;
   void find_place_again();
   template <typename Record>
   Result<Record> record(mcap::Opcode opcode, std::uint64_t offset, const char* kind);
@@ -59,7 +61,8 @@ class McapReader {
   const std::string name_;
   McapSummary summary_;
   McapFaults faults_;
-  std::uint64_t offset_ = 0;  // of the next record outside a chunk
+  std::vector<std::uint64_t> chunk_offsets_;  // in their order, if the file has an index
+  std::uint64_t offset_ = 0;                  // of the next record outside a chunk
   mcap::Buffer content_;
   mcap::Buffer unpacked_;
   Bytes left_in_chunk_;

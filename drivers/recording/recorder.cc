@@ -22,6 +22,12 @@ const CameraFrame* frame_of(const std::variant<RigEvent, RecordedPose, RecordedS
   return frame == nullptr ? nullptr : frame->get();
 }
 
+template <typename Entry>
+std::size_t bytes_of_entry(const Entry& entry) {
+  const CameraFrame* frame = frame_of(entry);
+  return sizeof(Entry) + (frame == nullptr ? 0 : sizeof(CameraFrame) + frame->bytes.size());
+}
+
 std::string too_little_space(std::uint64_t free, std::uint64_t floor) {
   return fmt::format("{} MiB are free and {} are kept free; free space or use another disk",
                      free >> 20, floor >> 20);
@@ -77,16 +83,6 @@ RecorderReport Recorder::finish() {
   if (thread_.joinable()) thread_.join();
   return report();
 }
-
-namespace {
-
-template <typename Entry>
-std::size_t bytes_of_entry(const Entry& entry) {
-  const CameraFrame* frame = frame_of(entry);
-  return sizeof(Entry) + (frame == nullptr ? 0 : sizeof(CameraFrame) + frame->bytes.size());
-}
-
-}  // namespace
 
 bool Recorder::accept(Entry entry) {
   const std::size_t bytes = bytes_of_entry(entry);
@@ -150,9 +146,7 @@ void Recorder::write(const Entry& entry) {
     report_.slowest_write = std::max<std::chrono::nanoseconds>(report_.slowest_write, took);
     report_.bytes_written = writer_->mcap().bytes_written();
   }
-  if (written) return;
-  const bool full = writer_->mcap().failure() == std::errc::no_space_on_device;
-  end(full ? RecorderState::kDiskFull : RecorderState::kDiskFailed, written.error().message);
+  if (!written) end(RecorderState::kDiskFailed, written.error().message);
 }
 
 // Chunks also end when nothing comes that would fill them.
@@ -162,10 +156,8 @@ void Recorder::keep_pace() {
   if (bytes != std::exchange(flushed_bytes_, bytes)) last_flush_ = now;
   if (now - last_flush_ < config_.file.chunk_duration) return;
   last_flush_ = now;
-  if (const auto flushed = writer_->flush(); !flushed) {
-    const bool full = writer_->mcap().failure() == std::errc::no_space_on_device;
-    end(full ? RecorderState::kDiskFull : RecorderState::kDiskFailed, flushed.error().message);
-  }
+  const auto flushed = writer_->flush();
+  if (!flushed) end(RecorderState::kDiskFailed, flushed.error().message);
 }
 
 void Recorder::watch_space() {
@@ -186,12 +178,15 @@ void Recorder::watch_space() {
 // Completes the file, whatever happened before; the first reason stands.
 void Recorder::end(RecorderState state, std::string message) {
   const Result<void> closed = writer_->close();
-  const bool failed = !closed && state == RecorderState::kFinished;
-  const bool full = writer_->mcap().failure() == std::errc::no_space_on_device;
   const std::lock_guard lock(mutex_);
   if (report_.state != RecorderState::kRecording) return;
-  report_.state = !failed ? state : full ? RecorderState::kDiskFull : RecorderState::kDiskFailed;
-  report_.message = failed ? closed.error().message : std::move(message);
+  report_.state = state;
+  report_.message = std::move(message);
+  if (!closed) {
+    const bool full = writer_->mcap().failure() == std::errc::no_space_on_device;
+    report_.state = full ? RecorderState::kDiskFull : RecorderState::kDiskFailed;
+    report_.message = closed.error().message;
+  }
   report_.events_refused += queue_.size();
   report_.queued_bytes = 0;
   report_.bytes_written = writer_->mcap().bytes_written();

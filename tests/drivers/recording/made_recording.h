@@ -86,6 +86,11 @@ inline Result<std::unique_ptr<RecordingSource>> open_bytes(std::vector<std::uint
   return RecordingSource::open(input_from_memory(std::move(bytes)), "made.mcap", options);
 }
 
+// For the names of tests.
+inline std::string compression_name(const ::testing::TestParamInfo<Compression>& info) {
+  return info.param == Compression::kNone ? "stored" : std::string(mcap_name(info.param));
+}
+
 inline std::vector<RigEvent> all_events(RigEventSource& source) {
   std::vector<RigEvent> events;
   while (auto event = source.next()) events.push_back(std::move(*event));

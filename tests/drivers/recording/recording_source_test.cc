@@ -54,7 +54,8 @@ TEST_P(RecordingOfEachCompression, IsTheSameBytesEachTime) {
 
 INSTANTIATE_TEST_SUITE_P(, RecordingOfEachCompression,
                          ::testing::Values(Compression::kNone, Compression::kLz4,
-                                           Compression::kZstd));
+                                           Compression::kZstd),
+                         testing::compression_name);
 
 TEST(RecordingSource, SaysWhatTheRecordingHolds) {
   auto source = open_bytes(recorded(made_events(1000ms)));

@@ -82,7 +82,8 @@ TEST_P(TruncationOfEachCompression, AtAnyByteLosesAtMostASecond) {
 
 INSTANTIATE_TEST_SUITE_P(, TruncationOfEachCompression,
                          ::testing::Values(Compression::kNone, Compression::kLz4,
-                                           Compression::kZstd));
+                                           Compression::kZstd),
+                         testing::compression_name);
 
 TEST(Truncation, WithinAChunkStillGivesItsWholeMessages) {
   for (const Compression compression : {Compression::kNone, Compression::kZstd}) {
