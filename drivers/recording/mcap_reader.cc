@@ -156,7 +156,7 @@ bool McapReader::misplaced(const RecordPlace& place) const {
 void McapReader::find_place_again() {
   const auto next = std::ranges::upper_bound(chunk_offsets_, offset_);
   ++faults_.damaged_records;
-  offset_ = next == chunk_offsets_.end() ? summary_.data_end : *next;
+  offset_ = next == chunk_offsets_.end() ? file_->size() : *next;
 }
 
 void McapReader::seek(std::uint64_t log_time) {

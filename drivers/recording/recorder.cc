@@ -9,7 +9,6 @@ namespace sparsight {
 namespace {
 
 constexpr std::chrono::milliseconds kPatience{50};
-constexpr std::chrono::seconds kSpaceInterval{1};
 
 // Which share of the queue a kind may fill.
 constexpr double kPreviewShare = 0.5;
@@ -162,7 +161,7 @@ void Recorder::keep_pace() {
 
 void Recorder::watch_space() {
   const Clock::time_point now = Clock::now();
-  if (now - last_look_ < kSpaceInterval) return;
+  if (now - last_look_ < config_.space_interval) return;
   last_look_ = now;
   const std::optional<std::uint64_t> free = writer_->mcap().file().free_bytes();
   {

@@ -23,6 +23,7 @@ struct RecorderConfig {
   // What waits for the disk: 5 s of the widest stream, 30 frames of 960 KB a second and the LiDAR.
   std::size_t queue_bytes = std::size_t{160} << 20;
   std::uint64_t free_space_floor_bytes = std::uint64_t{1} << 30;
+  std::chrono::milliseconds space_interval{1000};  // how often the free space is looked at
 };
 
 enum class RecorderState : std::uint8_t {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <random>
 #include <vector>
 
 #include "drivers/recording/crc32.h"
@@ -26,7 +27,8 @@ RC_GTEST_PROP(ChunkCompression, GivesBackAnyBytes, ()) {
 
 TEST(ChunkCompression, OfTheFrontOfAChunkGivesItsFront) {
   Buffer bytes(3 << 20);
-  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * i >> 9);
+  std::mt19937 random(1);
+  for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random() % 8);
   for (const Compression compression : kPacking) {
     Buffer packed;
     Buffer front;
@@ -39,12 +41,12 @@ TEST(ChunkCompression, OfTheFrontOfAChunkGivesItsFront) {
 }
 
 TEST(ChunkCompression, NeverExceedsItsLimit) {
-  const Buffer bytes(64 << 20);
+  const Buffer bytes(16 << 20);
   for (const Compression compression : kPacking) {
     Buffer packed;
     Buffer unpacked;
     compress(compression, bytes, packed);
-    EXPECT_LT(packed.size(), 400'000);
+    EXPECT_LT(packed.size(), 100'000);
     EXPECT_FALSE(decompress(compression, packed, 1000, unpacked));
     EXPECT_EQ(unpacked.size(), 1000);
     EXPECT_LT(unpacked.capacity(), std::size_t{1} << 20);

@@ -151,7 +151,7 @@ TEST(McapReader, RefusesChunksThatPromiseTooMuch) {
   for (const std::uint64_t promised :
        {std::uint64_t{1} << 62, zeros.size() - 1, zeros.size() + 1}) {
     Buffer records;
-    append_chunk_head({0, 0, promised, 0, "zstd", packed.size(), packed}, records);
+    mcap::append_chunk_head({0, 0, promised, 0, "zstd", packed.size(), packed}, records);
     records.insert(records.end(), packed.begin(), packed.end());
     const auto reader = *McapReader::open(input_from_memory(file_with(records)), "f");
     EXPECT_FALSE(reader->next());
@@ -171,7 +171,7 @@ TEST(McapReader, BelievesNoIndexThatPointsAstray) {
   append(mcap::ChunkIndex{.offset = UINT64_MAX - 3, .length = UINT64_MAX}, index);
   append(mcap::AttachmentIndex{.offset = summary.chunks[0].offset, .name = "rig.toml"}, index);
   append(mcap::MetadataIndex{.offset = UINT64_MAX, .name = kSessionMetadata}, index);
-  append_footer({summary.data_end, 0}, index);
+  mcap::append_footer({summary.data_end, 0}, index);
   bytes.insert(bytes.end(), index.begin(), index.end());
   bytes.insert(bytes.end(), mcap::kMagic.begin(), mcap::kMagic.end());
   auto source = *open_bytes(bytes);

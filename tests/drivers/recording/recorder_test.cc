@@ -148,9 +148,12 @@ TEST(Recorder, OnADiskThatGoesAwayKeepsWhatWasWritten) {
 
 TEST(Recorder, EndsCleanlyAtTheFreeSpaceFloor) {
   MadeDisk disk;
-  auto recorder = recorder_on(disk);
+  RecorderConfig config;
+  config.space_interval = 100ms;
+  auto recorder = recorder_on(disk, config);
   const auto events = made_events(300ms);
   for (const RigEvent& event : events) recorder->record(event);
+  ASSERT_TRUE(comes_true([&] { return recorder->report().queued_bytes == 0; }));
   disk.free = 1 << 20;
   EXPECT_TRUE(comes_true([&] { return recorder->report().state == RecorderState::kFloorReached; }));
   EXPECT_THAT(recorder->report().message, HasSubstr("1 MiB are free and 1024 are kept free"));

@@ -23,7 +23,7 @@ using testing::recorded;
 // The arrival of the last event that was in the writer's hands when byte `size` was written: all
 // of it is in the chunk that the cut fell into, or in the one before.
 struct CutRecording {
-  std::vector<RigEvent> events = made_events(3000ms);
+  std::vector<RigEvent> events = made_events(2500ms);
   std::vector<std::uint8_t> bytes;
   McapSummary summary;
 
@@ -62,7 +62,7 @@ class TruncationOfEachCompression : public ::testing::TestWithParam<Compression>
 
 TEST_P(TruncationOfEachCompression, AtEveryChunkBoundaryLosesAtMostASecond) {
   const CutRecording recording(GetParam());
-  ASSERT_GE(recording.summary.chunks.size(), 6);
+  ASSERT_GE(recording.summary.chunks.size(), 5);
   for (const mcap::ChunkIndex& chunk : recording.summary.chunks) {
     recording.expect_little_lost(chunk.offset);
     recording.expect_little_lost(chunk.offset + chunk.length);
@@ -74,8 +74,8 @@ TEST_P(TruncationOfEachCompression, AtEveryChunkBoundaryLosesAtMostASecond) {
 TEST_P(TruncationOfEachCompression, AtAnyByteLosesAtMostASecond) {
   const CutRecording recording(GetParam());
   std::mt19937 random(11);
-  for (int i = 0; i < 20; ++i) recording.expect_little_lost(random() % recording.bytes.size());
-  for (std::size_t cut = 0; cut < 45; ++cut) {
+  for (int i = 0; i < 15; ++i) recording.expect_little_lost(random() % recording.bytes.size());
+  for (std::size_t cut = 0; cut < 45; cut += 3) {
     recording.expect_little_lost(recording.bytes.size() - cut);
   }
 }
@@ -100,14 +100,14 @@ TEST(Truncation, WithinAChunkStillGivesItsWholeMessages) {
 
 TEST(Truncation, IsToldWithWhatIsLeft) {
   const CutRecording recording(Compression::kLz4);
-  const std::size_t size = recording.summary.chunks[4].offset;
+  const std::size_t size = recording.summary.chunks[3].offset;
   auto source =
       open_bytes({recording.bytes.begin(), recording.bytes.begin() + static_cast<long>(size)});
   const RecordingInfo& info = (*source)->info();
   EXPECT_FALSE(info.indexed);
   EXPECT_TRUE(info.truncated);
-  EXPECT_NEAR(to_seconds(info.duration()), 2.0, 0.2);
-  EXPECT_NEAR(static_cast<double>(info.messages.at("/velodyne_packets")), 1508, 150);
+  EXPECT_NEAR(to_seconds(info.duration()), 1.5, 0.2);
+  EXPECT_NEAR(static_cast<double>(info.messages.at("/velodyne_packets")), 1131, 150);
   EXPECT_EQ(*(*source)->attachment(kRigConfigurationAttachment), "name = \"made\"\n");
   EXPECT_EQ(info.utc_offset, testing::made_content().utc_offset);
 }
@@ -116,7 +116,7 @@ TEST(Recovery, RestoresAnIndexedFileFromACutOne) {
   const testing::TemporaryFolder folder;
   const CutRecording recording(Compression::kLz4);
   const std::string whole(recording.bytes.begin(), recording.bytes.end());
-  const std::size_t size = recording.summary.chunks[5].offset + 12345;
+  const std::size_t size = recording.summary.chunks[4].offset + 12345;
   testing::write_file(folder.path() / "cut.mcap", whole.substr(0, size));
   const auto report = recover_recording(folder.path() / "cut.mcap", folder.path() / "whole.mcap");
   ASSERT_TRUE(report) << report.error().message;
