@@ -42,7 +42,7 @@ class ByteReader {
 
   // With its length in 32 bits before it, as MCAP writes text and maps.
   Bytes prefixed() { return take(number<std::uint32_t>()); }
-  std::string_view text() { return text_of(prefixed()); }
+  std::string_view text() { return as_text(prefixed()); }
 
   std::size_t left() const { return bytes_.size(); }
   bool ok() const { return ok_; }

@@ -29,7 +29,7 @@ class ByteWriter {
   void bytes(Bytes bytes) { out_->insert(out_->end(), bytes.begin(), bytes.end()); }
   void text(std::string_view text) {
     number(static_cast<std::uint32_t>(text.size()));
-    bytes(bytes_of(text));
+    bytes(as_bytes(text));
   }
 
   std::size_t position() const { return out_->size(); }

@@ -8,11 +8,11 @@ namespace sparsight {
 
 using Bytes = std::span<const std::uint8_t>;
 
-inline Bytes bytes_of(std::string_view text) {
+inline Bytes as_bytes(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-inline std::string_view text_of(Bytes bytes) {
+inline std::string_view as_text(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 

@@ -25,7 +25,7 @@ void CdrWriter::align(std::size_t size) {
 
 void CdrWriter::text(std::string_view text) {
   length(text.size() + 1);
-  writer_.bytes(bytes_of(text));
+  writer_.bytes(as_bytes(text));
   writer_.number(std::uint8_t{0});
 }
 
@@ -43,7 +43,7 @@ CdrReader::CdrReader(Bytes message) : reader_(message) {
 void CdrReader::align(std::size_t size) { reader_.take(padding(size_ - reader_.left(), size)); }
 
 std::string_view CdrReader::text() {
-  const std::string_view text = text_of(sequence());
+  const std::string_view text = as_text(sequence());
   return text.substr(0, text.find('\0'));
 }
 

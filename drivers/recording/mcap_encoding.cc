@@ -106,7 +106,7 @@ void append(const Attachment& attachment, Buffer& out) {
   writer.text(attachment.name);
   writer.text(attachment.media_type);
   writer.number(std::uint64_t{attachment.data.size()});
-  writer.bytes(bytes_of(attachment.data));
+  writer.bytes(as_bytes(attachment.data));
   writer.number(crc32_of(Bytes(out).subspan(start)));
 }
 

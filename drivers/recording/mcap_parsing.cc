@@ -117,7 +117,7 @@ bool parse(Bytes content, Attachment& out) {
   out.create_time = reader.number<std::uint64_t>();
   out.name = reader.text();
   out.media_type = reader.text();
-  out.data = text_of(reader.take(reader.number<std::uint64_t>()));
+  out.data = as_text(reader.take(reader.number<std::uint64_t>()));
   const std::size_t checked = content.size() - reader.left();
   const auto crc = reader.number<std::uint32_t>();
   return reader.ok() && (crc == 0 || crc == crc32_of(content.first(checked)));

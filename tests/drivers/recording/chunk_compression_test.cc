@@ -72,9 +72,9 @@ TEST(ChunkCompression, HasTheNamesOfTheFormat) {
 
 // The check value of CRC-32 (ITU-T V.42), published for these nine digits.
 TEST(Crc32, IsThatOfTheStandard) {
-  EXPECT_EQ(crc32_of(bytes_of("123456789")), 0xcbf43926U);
-  EXPECT_EQ(crc32_of(bytes_of("6789"), crc32_of(bytes_of("12345"))), 0xcbf43926U);
-  EXPECT_EQ(crc32_of_both(crc32_of(bytes_of("12345")), crc32_of(bytes_of("6789")), 4), 0xcbf43926U);
+  EXPECT_EQ(crc32_of(as_bytes("123456789")), 0xcbf43926U);
+  EXPECT_EQ(crc32_of(as_bytes("6789"), crc32_of(as_bytes("12345"))), 0xcbf43926U);
+  EXPECT_EQ(crc32_of_both(crc32_of(as_bytes("12345")), crc32_of(as_bytes("6789")), 4), 0xcbf43926U);
   EXPECT_EQ(crc32_of({}), 0U);
 }
 

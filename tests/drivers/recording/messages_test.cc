@@ -112,7 +112,7 @@ TEST(ForeignImage, IsRefusedWhereItCannotBeAFrame) {
   EXPECT_TRUE(read.damaged);  // a byte is missing
   std::string text(bytes.begin(), bytes.end());
   text.replace(text.find("mono8"), 5, "rgb99");
-  EXPECT_FALSE(read_foreign_image(bytes_of(text), read));
+  EXPECT_FALSE(read_foreign_image(as_bytes(text), read));
 }
 
 TEST(MessageSchemas, CarryTheTypesTheyContain) {
