@@ -17,7 +17,7 @@ namespace sparsight {
 struct McapWriterOptions {
   std::string profile = "ros2";
   std::string library = "sparsight";
-  Compression compression = Compression::kLz4;
+  Compression compression = Compression::kZstd;
   // What a power cut may take: a chunk is written out before either is exceeded.
   std::size_t chunk_bytes = std::size_t{4} << 20;
   std::chrono::milliseconds chunk_duration{500};  // by log time
