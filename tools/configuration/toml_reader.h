@@ -9,20 +9,20 @@
 #include <utility>
 #include <vector>
 
-#include "tools/configuration/odometry_fields.h"
+#include "tools/configuration/field_range.h"
 
 namespace sparsight {
 
-struct ProfileError {
+struct FileError {
   int line;
   std::string text;
 };
 
 // Visits the fields of one struct and takes their values from one TOML table. What the table holds
 // beyond them is an error, as is every value of the wrong type or out of range.
-class ProfileReader {
+class TomlReader {
  public:
-  ProfileReader(const toml::table& table, std::string path, std::vector<ProfileError>& errors)
+  TomlReader(const toml::table& table, std::string path, std::vector<FileError>& errors)
       : table_(table), path_(std::move(path)), errors_(errors) {}
 
   template <typename Number>
@@ -64,7 +64,7 @@ class ProfileReader {
     const toml::node* node = find(key);
     if (!node) return;
     if (!node->is_table()) return refuse(key, *node, "must be a table, [" + nested(key) + "]");
-    ProfileReader reader(*node->as_table(), nested(key), errors_);
+    TomlReader reader(*node->as_table(), nested(key), errors_);
     visit_fields(reader, value);
     reader.refuse_unknown_keys();
   }
@@ -82,7 +82,7 @@ class ProfileReader {
 
   const toml::table& table_;
   std::string path_;  // "" at the top, else "tracker" or "tracker.kernel"
-  std::vector<ProfileError>& errors_;
+  std::vector<FileError>& errors_;
   std::vector<std::string_view> known_;
 };
 

@@ -1,4 +1,4 @@
-#include "tools/configuration/profile_reader.h"
+#include "tools/configuration/toml_reader.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -41,37 +41,37 @@ int line_of(const toml::node& node) { return static_cast<int>(node.source().begi
 
 }  // namespace
 
-void ProfileReader::field(std::string_view key, bool& value) {
+void TomlReader::field(std::string_view key, bool& value) {
   const toml::node* node = find(key);
   if (!node) return;
   if (!node->is_boolean()) return refuse(key, *node, "must be true or false");
   value = node->value<bool>().value();
 }
 
-const toml::node* ProfileReader::find(std::string_view key) {
+const toml::node* TomlReader::find(std::string_view key) {
   known_.push_back(key);
   return table_.get(key);
 }
 
-std::string ProfileReader::nested(std::string_view key) const {
+std::string TomlReader::nested(std::string_view key) const {
   return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
 }
 
-void ProfileReader::refuse(std::string_view key, const toml::node& node, const std::string& fix) {
+void TomlReader::refuse(std::string_view key, const toml::node& node, const std::string& fix) {
   const std::string table = path_.empty() ? "" : fmt::format("[{}] ", path_);
   errors_.push_back({line_of(node), fmt::format("{}{} = {}: {}", table, key, text_of(node), fix)});
 }
 
-void ProfileReader::refuse_range(std::string_view key, const toml::node& node, FieldRange range) {
+void TomlReader::refuse_range(std::string_view key, const toml::node& node, FieldRange range) {
   refuse(key, node, fmt::format("must be between {} and {}", range.min, range.max));
 }
 
-void ProfileReader::refuse_choice(std::string_view key, const toml::node& node,
-                                  const std::vector<std::string_view>& allowed) {
+void TomlReader::refuse_choice(std::string_view key, const toml::node& node,
+                               const std::vector<std::string_view>& allowed) {
   refuse(key, node, fmt::format("must be one of \"{}\"", fmt::join(allowed, "\", \"")));
 }
 
-void ProfileReader::refuse_unknown_keys() {
+void TomlReader::refuse_unknown_keys() {
   for (const auto& [key, node] : table_) {
     if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
     const int line = static_cast<int>(key.source().begin.line);
