@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <string_view>
+
 namespace sparsight {
 
 // What a number in a file may be. Both ends belong to the range.
@@ -9,5 +12,11 @@ struct FieldRange {
 };
 
 inline constexpr FieldRange kShare{0.0, 1.0};
+
+// What a text in a file may be.
+struct TextRule {
+  bool (*accepts)(std::string_view text);
+  std::string expected;  // "must be ..." says an error
+};
 
 }  // namespace sparsight
