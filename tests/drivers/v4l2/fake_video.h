@@ -57,7 +57,8 @@ class FakeVideo final : public SystemCalls {
   std::uint32_t timestamp_flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
   std::uint32_t most_buffers = 32;
   bool plugged = true;
-  bool triggered = true;  // false: streams, but nothing triggers it
+  bool triggered = true;   // false: streams, but nothing triggers it
+  int frames_to_come = 0;  // that are triggered all the same
   bool accepts_requeue = true;
   std::chrono::nanoseconds transfer = std::chrono::milliseconds(5);  // stamp to arrival
   std::map<int, Trouble> troubles;                                   // by the frame's number
@@ -184,7 +185,8 @@ class FakeVideo final : public SystemCalls {
   }
 
   void make_frame() {
-    if (!triggered || dead_ != 0) return;
+    if (dead_ != 0 || (!triggered && frames_to_come <= 0)) return;
+    --frames_to_come;
     const Trouble trouble = troubles[frames_made++];
     if (trouble.unplugged) plugged = false;
     if (trouble.source_changes) ++events_;
