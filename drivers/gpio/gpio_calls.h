@@ -39,6 +39,4 @@ class GpioCalls {
   virtual HostTime now() = 0;
 };
 
-GpioCalls& libgpiod_calls();
-
 }  // namespace sparsight

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/gpio/gpio_calls.h"
+#include "drivers/gpio/libgpiod_calls.h"
 #include "drivers/gpio/watched_line.h"
 #include "hal/rig_config.h"
 #include "hal/trigger_line.h"

@@ -1,3 +1,5 @@
+#include "drivers/gpio/libgpiod_calls.h"
+
 #include <fcntl.h>
 #include <gpiod.h>
 #include <poll.h>
@@ -9,8 +11,6 @@
 #include <map>
 #include <mutex>
 #include <vector>
-
-#include "drivers/gpio/gpio_calls.h"
 
 namespace sparsight {
 namespace {

@@ -1,3 +1,5 @@
+#include "drivers/gpio/linux_pps_port.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gpiod.h>
@@ -7,8 +9,6 @@
 #include <cerrno>
 #include <ctime>
 #include <system_error>
-
-#include "drivers/gpio/pps_output.h"
 
 namespace sparsight {
 namespace {

@@ -128,7 +128,7 @@ Result<void> check_period(const VideoDevice& device, nanoseconds exposure, doubl
 Result<nanoseconds> apply_settings(VideoDevice& device, const CameraConfig& config) {
   ControlList controls(device);
   if (config.exposure) {
-    const auto set = set_exposure(controls, *config.exposure, config.width);
+    auto set = set_exposure(controls, *config.exposure, config.width);
     if (!set) return set;
   }
   if (config.gain) {

@@ -1,3 +1,5 @@
+#include "tools/doctor/disk_checks.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -6,8 +8,6 @@
 #include <cerrno>
 #include <chrono>
 #include <system_error>
-
-#include "tools/doctor/host_checks.h"
 
 namespace sparsight {
 namespace {

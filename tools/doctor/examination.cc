@@ -6,6 +6,7 @@
 #include "drivers/gpio/gpio_trigger_line.h"
 #include "drivers/v4l2/v4l2_camera.h"
 #include "tools/doctor/camera_checks.h"
+#include "tools/doctor/disk_checks.h"
 #include "tools/doctor/host_checks.h"
 #include "tools/doctor/lidar_checks.h"
 #include "tools/doctor/trigger_checks.h"
