@@ -1,16 +1,9 @@
 #pragma once
 
 #include "slam/odometry.h"
+#include "tools/configuration/field_range.h"
 
 namespace sparsight {
-
-// Both ends belong to the range.
-struct FieldRange {
-  double min;
-  double max;
-};
-
-inline constexpr FieldRange kShare{0.0, 1.0};
 
 // The configuration as files see it: a table per struct, a key per field, nested as the modules
 // nest. A field that is missing here cannot be configured; a test counts them. A Visitor has

@@ -11,5 +11,6 @@ void add_replay(CLI::App& app, int& exit_code);
 void add_evaluate(CLI::App& app, int& exit_code);
 void add_benchmark(CLI::App& app, int& exit_code);
 void add_recover(CLI::App& app, int& exit_code);
+void add_doctor(CLI::App& app, int& exit_code);
 
 }  // namespace sparsight

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/tools/configuration/field_counter.h"
 #include "tools/configuration/odometry_fields.h"
 
 namespace sparsight {
@@ -21,6 +22,7 @@ std::string error_of(std::string_view toml) {
 TEST(Profile, EveryShippedFileLoadsAndIsBuiltIn) {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(SPARSIGHT_SOURCE_DIR "/config")) {
+    if (!entry.is_regular_file()) continue;  // config/rig/ holds no profiles
     const auto from_file = load_profile(entry.path());
     ASSERT_TRUE(from_file) << from_file.error().message;
     const auto built_in = load_profile(entry.path().stem());
@@ -116,49 +118,12 @@ TEST(Profile, UnreadableFileNamesTheBuiltInOnes) {
   EXPECT_FALSE(load_profile("/"));
 }
 
-// Every member of a struct is visited: Any converts to whatever a member is, so an aggregate can be
-// initialised with as many of them as it has members, and not with one more.
-struct Any {
-  template <typename Member>
-  operator Member() const;  // NOLINT(google-explicit-constructor)
-};
-
-template <typename Struct, typename... Members>
-constexpr int member_count() {
-  if constexpr (requires { Struct{Members{}..., Any{}}; }) {
-    return member_count<Struct, Members..., Any>();
-  } else {
-    return sizeof...(Members);
-  }
-}
-
-struct FieldCounter {
-  template <typename Number>
-  void field(std::string_view, Number&, FieldRange) {
-    ++count;
-  }
-  void field(std::string_view, bool&) { ++count; }
-  template <typename Enum, typename Names>
-  void choice(std::string_view, Enum&, const Names&) {
-    ++count;
-  }
-  template <typename Struct>
-  void table(std::string_view key, Struct& value) {
-    ++count;
-    FieldCounter inner;
-    visit_fields(inner, value);
-    EXPECT_EQ(inner.count, member_count<Struct>())
-        << "[" << key << "]: odometry_fields.h and the struct have different fields";
-  }
-  int count = 0;
-};
-
 TEST(Profile, NoFieldOfTheStructsIsForgotten) {
   OdometryConfig config;
-  FieldCounter fields;
+  testing::FieldCounter fields;
   visit_fields(fields, config);
-  EXPECT_EQ(fields.count, member_count<OdometryConfig>());
-  EXPECT_EQ(member_count<KeyframeConfig>(), 2);
+  EXPECT_EQ(fields.count, testing::member_count<OdometryConfig>());
+  EXPECT_EQ(testing::member_count<KeyframeConfig>(), 2);
 }
 
 }  // namespace
