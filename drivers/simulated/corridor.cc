@@ -26,6 +26,7 @@ struct Wall {
   float length;
   int material;
   bool outside;  // of the building: may have windows
+  bool rail = false;
 
   Vector3f into() const { return Vector3f(0, 0, 1).cross(along); }
   Vector3f at(float x, float z, float depth = 0.0F) const {
@@ -52,7 +53,7 @@ class CorridorBuilder {
     skirting_ = palette_.plain(0.3F, 0.03F, 0.05F);
     frame_ = palette_.plain(0.45F, 0.03F, 0.06F, 55);
     metal_ = palette_.plain(0.5F, 0.03F, 0.05F, 70);
-    lamp_ = palette_.lamp(7.0F);
+    lamp_ = palette_.lamp(11.0F);
     radiator_ = palette_.slats(0.06F);
     wood_ = palette_.plain(0.38F, 0.05F, 0.2F, 35);
     leaf_ = palette_.leaves(0.28F);
@@ -67,12 +68,12 @@ class CorridorBuilder {
     const int brick = palette_.bricks();
     // Outer walls as seen from inside; the block's walls as seen from around it.
     wall({{a + w, -b - w, 0}, {-1, 0, 0}, kLength + kWidth, plain, true});
-    wall({{-a - w, -b - w, 0}, {0, 1, 0}, kBreadth + kWidth, bright, true});
+    wall({{-a - w, -b - w, 0}, {0, 1, 0}, kBreadth + kWidth, bright, true, true});
     wall({{-a - w, b + w, 0}, {1, 0, 0}, kLength + kWidth, brick, true});
     wall({{a + w, b + w, 0}, {0, -1, 0}, kBreadth + kWidth, bright, true});
     wall({{-a + w, -b + w, 0}, {1, 0, 0}, kLength - kWidth, bright, false});
     wall({{a - w, -b + w, 0}, {0, 1, 0}, kBreadth - kWidth, plain, false});
-    wall({{a - w, b - w, 0}, {-1, 0, 0}, kLength - kWidth, plain, false});
+    wall({{a - w, b - w, 0}, {-1, 0, 0}, kLength - kWidth, plain, false, true});
     wall({{-a + w, b - w, 0}, {0, -1, 0}, kBreadth - kWidth, brick, false});
     floors(a, b, w);
     ceiling(a, b, w);
@@ -104,7 +105,7 @@ class CorridorBuilder {
                             palette_.door(kDoor), frame_});
       } else if (wall.outside && random_.chance(0.5)) {
         recesses.push_back({middle - kWindow.x() / 2, middle + kWindow.x() / 2, 0.85F,
-                            0.85F + kWindow.y(), 0.22F, palette_.window(0.9F), frame_});
+                            0.85F + kWindow.y(), 0.22F, palette_.window(1.1F), frame_});
       } else {
         const float half = random_.uniform_f(0.5, 0.75);
         recesses.push_back({middle - half, middle + half, 0.0F, random_.uniform_f(2.0, 2.35),
@@ -119,6 +120,10 @@ class CorridorBuilder {
     const Vector3f out = -0.015F * wall.into();
     build_.panel(wall.at(from, 0) + out, (to - from) * wall.along, {0, 0, 0.09F}, skirting_);
     build_.panel(wall.at(from, 0.09F) + out, (to - from) * wall.along, -out, skirting_);
+    if (wall.rail) {
+      build_.box(wall.at((from + to) / 2, 0.92F, -0.06F), {to - from, 0.05F, 0.09F}, wall.yaw(),
+                 wood_);
+    }
     if (to - from > 0.9F) furnish(wall, from, to);
   }
 
@@ -173,7 +178,7 @@ class CorridorBuilder {
   void furnish(const Wall& wall, float from, float to) {
     const float middle = (from + to) / 2 + random_.uniform_f(-0.2, 0.2);
     const float yaw = wall.yaw();
-    if (random_.chance(0.5)) hang_poster(wall, middle);
+    if (random_.chance(0.62)) hang_poster(wall, middle);
     if (random_.chance(0.3)) {  // switch
       build_.box(wall.at(from + 0.18F, 1.05F, -0.005F), {0.08F, 0.02F, 0.08F}, yaw, metal_);
     }
@@ -296,9 +301,9 @@ class CorridorBuilder {
 Scene make_corridor(std::uint64_t seed) {
   Scene scene;
   CorridorBuilder(scene, seed ^ 0xc0441d04U).build();
-  scene.bounced_light = 0.75F;
+  scene.bounced_light = 1.0F;
   scene.light_spacing_m = 0.18F;
-  scene.exposure_gain = 165.0F;
+  scene.exposure_gain = 260.0F;
   const double a = kLength / 2.0;
   const double b = kBreadth / 2.0;
   scene.walk.corners = {{-a, -b}, {a, -b}, {a, b}, {-a, b}};

@@ -5,11 +5,8 @@
 namespace sparsight::simulated {
 namespace {
 
-float unevenness(const Texture& texture, float gain, float repeat_m, const Eigen::Vector2f& at,
-                 const Footprint& footprint) {
-  const float scale = 1.0F / repeat_m;
-  const Footprint scaled{footprint.right * scale, footprint.down * scale};
-  return 1.0F + gain * (2.0F * texture.sample(at * scale, scaled) - 1.0F);
+Footprint operator*(float scale, const Footprint& footprint) {
+  return {scale * footprint.right, scale * footprint.down};
 }
 
 }  // namespace
@@ -34,12 +31,15 @@ float MaterialLibrary::albedo(const Material& material, const Eigen::Vector2f& a
         {footprint.right.cwiseProduct(scale), footprint.down.cwiseProduct(scale)});
   }
   if (material.stain != kNoTexture) {
-    value *= unevenness(textures[material.stain], material.stain_gain, material.stain_m,
-                        at + offset, footprint);
+    const float scale = 1.0F / material.stain_m;
+    const float noise =
+        textures[material.stain].sample_soft(scale * (at + offset), scale * footprint);
+    value *= 1.0F + material.stain_gain * (2.0F * noise - 1.0F);
   }
   if (material.detail != kNoTexture) {
-    value *= unevenness(textures[material.detail], material.detail_gain, material.detail_m,
-                        at + offset, footprint);
+    const float scale = 1.0F / material.detail_m;
+    const float noise = textures[material.detail].sample(scale * (at + offset), scale * footprint);
+    value *= 1.0F + material.detail_gain * (2.0F * noise - 1.0F);
   }
   return value;
 }

@@ -9,7 +9,7 @@ namespace sparsight::simulated {
 namespace {
 
 // A surface seen at a grazing angle is sampled this often along its long axis; beyond, it blurs.
-constexpr int kMostTaps = 6;
+constexpr int kMostTaps = 4;
 
 // Piecewise linear between powers of two: 0.09 off at most, which no eye sees in a mip level.
 float rough_log2(float x) {
@@ -22,6 +22,39 @@ float rough_log2(float x) {
 int floor_of(float x) {
   const int truncated = static_cast<int>(x);
   return truncated - (static_cast<float>(truncated) > x ? 1 : 0);
+}
+
+float bilinear(const std::uint8_t* texels, int width, int height, const Eigen::Vector2f& at) {
+  const float x = at.x() * static_cast<float>(width) - 0.5F;
+  const float y = at.y() * static_cast<float>(height) - 0.5F;
+  const int x_floor = floor_of(x);
+  const int y_floor = floor_of(y);
+  const float a = x - static_cast<float>(x_floor);
+  const float b = y - static_cast<float>(y_floor);
+  // Powers of two: the remainder of a repetition is a mask, for negative numbers too.
+  const int x0 = x_floor & (width - 1);
+  const int x1 = (x_floor + 1) & (width - 1);
+  const std::uint8_t* low = texels + (y_floor & (height - 1)) * width;
+  const std::uint8_t* high = texels + ((y_floor + 1) & (height - 1)) * width;
+  const auto left = static_cast<float>(low[x0]);
+  const auto left_high = static_cast<float>(high[x0]);
+  const float below = left + a * (static_cast<float>(low[x1]) - left);
+  const float above = left_high + a * (static_cast<float>(high[x1]) - left_high);
+  return (below + b * (above - below)) * (1.0F / 255.0F);
+}
+
+struct Lengths {
+  float longer;
+  float shorter;
+  Eigen::Vector2f axis;  // the longer one
+};
+
+Lengths in_texels(const Footprint& footprint, int width, int height) {
+  const Eigen::Vector2f size(static_cast<float>(width), static_cast<float>(height));
+  const float right = footprint.right.cwiseProduct(size).squaredNorm();
+  const float down = footprint.down.cwiseProduct(size).squaredNorm();
+  return {std::sqrt(std::max(right, down)), std::sqrt(std::min(right, down)),
+          right > down ? footprint.right : footprint.down};
 }
 
 std::vector<float> halved(const std::vector<float>& fine, int width, int height) {
@@ -59,48 +92,35 @@ Texture::Texture(int width, int height, const std::vector<float>& values) {
   }
 }
 
-float Texture::bilinear(const Level& level, const Eigen::Vector2f& at) {
-  const float x = at.x() * static_cast<float>(level.width) - 0.5F;
-  const float y = at.y() * static_cast<float>(level.height) - 0.5F;
-  const int x_floor = floor_of(x);
-  const int y_floor = floor_of(y);
-  const float a = x - static_cast<float>(x_floor);
-  const float b = y - static_cast<float>(y_floor);
-  // Powers of two: the remainder of a repetition is a mask, for negative numbers too.
-  const int x0 = x_floor & (level.width - 1);
-  const int x1 = (x_floor + 1) & (level.width - 1);
-  const int y0 = (y_floor & (level.height - 1)) * level.width;
-  const int y1 = ((y_floor + 1) & (level.height - 1)) * level.width;
-  const std::uint8_t* texels = level.texels.data();
-  const float top =
-      static_cast<float>(texels[y0 + x0]) * (1 - a) + static_cast<float>(texels[y0 + x1]) * a;
-  const float low =
-      static_cast<float>(texels[y1 + x0]) * (1 - a) + static_cast<float>(texels[y1 + x1]) * a;
-  return (top * (1 - b) + low * b) * (1.0F / 255.0F);
+float Texture::between_levels(const Eigen::Vector2f& at, float depth) const {
+  const auto index = static_cast<std::size_t>(depth);
+  const float share = depth - static_cast<float>(index);
+  const Level& fine = levels_[index];
+  const float value = bilinear(fine.texels.data(), fine.width, fine.height, at);
+  if (share < 0.02F || index + 1 >= levels_.size()) return value;
+  const Level& coarse = levels_[index + 1];
+  return value + share * (bilinear(coarse.texels.data(), coarse.width, coarse.height, at) - value);
 }
 
 float Texture::sample(const Eigen::Vector2f& at, const Footprint& footprint) const {
-  const Eigen::Vector2f size(static_cast<float>(width()), static_cast<float>(height()));
-  const float right = footprint.right.cwiseProduct(size).squaredNorm();
-  const float down = footprint.down.cwiseProduct(size).squaredNorm();
-  const Eigen::Vector2f& axis = right > down ? footprint.right : footprint.down;
-  const float longer = std::sqrt(std::max(right, down));
-  const float shorter = std::sqrt(std::min(right, down));
+  const Lengths lengths = in_texels(footprint, width(), height());
   const int taps =
-      std::clamp(static_cast<int>(longer / std::max(shorter, 1.0F) + 0.7F), 1, kMostTaps);
-  const float across = std::max(longer / static_cast<float>(taps), 1.0F);
+      std::clamp(static_cast<int>(0.75F * lengths.longer / std::max(lengths.shorter, 1.0F) + 0.75F),
+                 1, kMostTaps);
+  const float across = std::max(lengths.longer / static_cast<float>(taps), 1.0F);
   const float depth = std::min(rough_log2(across), static_cast<float>(levels_.size() - 1));
-  const auto level = static_cast<std::size_t>(depth);
-  const float share = depth - static_cast<float>(level);
-  const bool blend = share > 0.02F && level + 1 < levels_.size();
+  if (taps == 1) return between_levels(at, depth);
+  const Eigen::Vector2f step = lengths.axis / static_cast<float>(taps);
+  Eigen::Vector2f place = at - (0.5F * static_cast<float>(taps - 1)) * step;
   float sum = 0.0F;
-  for (int tap = 0; tap < taps; ++tap) {
-    const float along = (static_cast<float>(tap) + 0.5F) / static_cast<float>(taps) - 0.5F;
-    const Eigen::Vector2f place = at + along * axis;
-    const float fine = bilinear(levels_[level], place);
-    sum += blend ? fine + share * (bilinear(levels_[level + 1], place) - fine) : fine;
-  }
+  for (int tap = 0; tap < taps; ++tap, place += step) sum += between_levels(place, depth);
   return sum / static_cast<float>(taps);
+}
+
+float Texture::sample_soft(const Eigen::Vector2f& at, const Footprint& footprint) const {
+  const Lengths lengths = in_texels(footprint, width(), height());
+  const float across = std::max(std::sqrt(lengths.longer * lengths.shorter), 1.0F);
+  return between_levels(at, std::min(rough_log2(across), static_cast<float>(levels_.size() - 1)));
 }
 
 }  // namespace sparsight::simulated

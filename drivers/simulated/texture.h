@@ -25,6 +25,9 @@ class Texture {
 
   // Averaged over the footprint; (1, 1) is one repetition.
   float sample(const Eigen::Vector2f& at, const Footprint& footprint) const;
+  // The same from one place of the right coarseness: softer where the footprint is long, which is
+  // no matter for what is smooth anyway, and some times faster.
+  float sample_soft(const Eigen::Vector2f& at, const Footprint& footprint) const;
 
  private:
   struct Level {
@@ -32,7 +35,7 @@ class Texture {
     int height = 0;
     std::vector<std::uint8_t> texels;
   };
-  static float bilinear(const Level& level, const Eigen::Vector2f& at);
+  float between_levels(const Eigen::Vector2f& at, float depth) const;
 
   std::vector<Level> levels_;
 };
