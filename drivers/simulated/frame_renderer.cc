@@ -13,6 +13,7 @@ namespace {
 constexpr int kTile = 8;
 constexpr float kNearM = 0.02F;
 constexpr std::size_t kLooks = 8;
+constexpr float kBrightestGrey = 320.0F;  // well saturated
 
 // Eight places in a pixel, no two in one row or column of eighths.
 constexpr std::array<std::array<float, 2>, kLooks> kPlaces{{{-0.4375F, -0.0625F},
@@ -30,6 +31,7 @@ FrameRenderer::FrameRenderer(const World& world, const CameraIntrinsics& camera)
     : world_(world),
       width_(camera.width),
       height_(camera.height),
+      brightest_(kBrightestGrey / world.scene().exposure_gain),
       step_(static_cast<float>(1.0 / camera.fx), static_cast<float>(1.0 / camera.fy)) {
   for (int v = 0; v < height_; ++v) {
     for (int u = 0; u < width_; ++u) {
@@ -117,7 +119,9 @@ void FrameRenderer::refine(const View& view, const std::vector<int>& pixels,
       float sum = 0.0F;
       for (std::size_t look = 0; look < kLooks; ++look) {
         const RTCRayHit& found = looks[(i - first) * kLooks + look];
-        sum += light_of(view, {found.hit.primID, found.ray.tfar}, place(pixel, look), 0.5F);
+        // A lamp in a share of the pixel must not outshine the rest, or its edge is jagged.
+        sum += std::min(brightest_, light_of(view, {found.hit.primID, found.ray.tfar},
+                                             place(pixel, look), 0.5F));
       }
       light[pixel] = sum / kLooks;
     }

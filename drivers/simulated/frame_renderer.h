@@ -33,6 +33,7 @@ class FrameRenderer {
   const World& world_;
   int width_;
   int height_;
+  float brightest_;
   Eigen::Vector2f step_;  // of a pixel on the plane z = 1
   std::vector<Eigen::Vector2f> rays_;
 };

@@ -20,7 +20,7 @@ class HallBuilder {
  public:
   HallBuilder(Scene& scene, std::uint64_t seed)
       : build_(scene, seed), random_(build_.random()), palette_(scene.library, random_) {
-    steel_ = palette_.plain(0.34F, 0.06F, 0.08F, 65);
+    steel_ = palette_.plain(0.42F, 0.06F, 0.08F, 65);
     paint_ = palette_.plain(0.7F, 0.1F, 0.15F, 80);
     wood_ = palette_.boards();
     concrete_ = palette_.plain(0.45F, 0.2F, 0.18F, 45);
@@ -75,7 +75,7 @@ class HallBuilder {
   void shell() {
     const float a = kHalfLength;
     const float b = kHalfBreadth;
-    window_ = palette_.window(1.6F);
+    window_ = palette_.window(0.9F);
     const int brick = palette_.bricks();
     const int upper = palette_.plain(0.6F, 0.14F, 0.09F, 55);
     const int upper_too = palette_.plain(0.5F, 0.12F, 0.12F, 50);
@@ -99,7 +99,7 @@ class HallBuilder {
 
   void roof() {
     const int sheet = palette_.slats(0.5F);
-    const int lamp = palette_.lamp(16.0F);
+    const int lamp = palette_.lamp(26.0F);
     build_.panel({-kHalfLength, kHalfBreadth, kHeight}, {2 * kHalfLength, 0, 0},
                  {0, -2 * kHalfBreadth, 0}, sheet);
     for (float x = -10.4F; x < kHalfLength; x += 5.2F) {
@@ -190,9 +190,9 @@ class HallBuilder {
 Scene make_hall(std::uint64_t seed) {
   Scene scene;
   HallBuilder(scene, seed ^ 0x4a11U).build();
-  scene.bounced_light = 0.55F;
+  scene.bounced_light = 0.6F;
   scene.light_spacing_m = 0.22F;
-  scene.exposure_gain = 190.0F;
+  scene.exposure_gain = 300.0F;
   scene.walk.corners = {{-8.3, -4.4}, {8.3, -4.4}, {8.3, 4.4}, {-8.3, 4.4}};
   scene.walk.corner_m = 2.2;
   scene.walk.speed_m_s = 1.1;

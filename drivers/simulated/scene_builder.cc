@@ -57,7 +57,7 @@ void SceneBuilder::column(const Vector3f& foot, float radius, float height, int 
   }
   if (top_radius <= 0.0F) return;
   for (int i = 0; i < faces; i += 2) {  // the lid, as slices of two sides
-    const auto at = [&](int k) {
+    const auto at = [&](int k) -> Vector3f {
       return foot + up + top_radius * around(step * static_cast<float>(k));
     };
     quad({foot + up, at(i), at(i + 1), at(i + 2)}, material);
