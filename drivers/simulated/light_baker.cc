@@ -8,7 +8,7 @@
 namespace sparsight::simulated {
 namespace {
 
-constexpr int kDirections = 64;
+constexpr int kDirections = 48;
 constexpr float kLift = 0.004F;  // off the surface, so that rays do not meet it
 constexpr float kLampReachM = 14.0F;
 constexpr float kOpenM = 1.2F;  // walls this near take away two thirds of the bounced light

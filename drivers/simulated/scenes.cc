@@ -1,8 +1,9 @@
 #include "drivers/simulated/scenes.h"
 
 namespace sparsight::simulated {
+namespace {
 
-Scene make_scene(SimulatedScene scene, std::uint64_t seed) {
+Scene by_name(SimulatedScene scene, std::uint64_t seed) {
   switch (scene) {
     case SimulatedScene::kCorridor:
       return make_corridor(seed);
@@ -12,6 +13,14 @@ Scene make_scene(SimulatedScene scene, std::uint64_t seed) {
       return make_street(seed);
   }
   return {};
+}
+
+}  // namespace
+
+Scene make_scene(const SimulationOptions& options) {
+  Scene scene = by_name(options.scene, options.seed);
+  scene.light_spacing_m /= static_cast<float>(options.light_detail);
+  return scene;
 }
 
 }  // namespace sparsight::simulated

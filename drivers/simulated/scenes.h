@@ -14,6 +14,6 @@ Scene make_hall(std::uint64_t seed);
 // Outdoors: a street with facades, parked cars, trees; open sky.
 Scene make_street(std::uint64_t seed);
 
-Scene make_scene(SimulatedScene scene, std::uint64_t seed);
+Scene make_scene(const SimulationOptions& options);
 
 }  // namespace sparsight::simulated

@@ -80,7 +80,7 @@ struct SimulatedRig::Parts {
   explicit Parts(const SimulationOptions& o)
       : options(o),
         config(simulated_rig_config(o)),
-        world(make_scene(o.scene, o.seed)),
+        world(make_scene(o)),
         walk(std::make_shared<const Walk>(world.scene().walk, o.seed)),
         faults(o.faults, o.seed),
         camera_clock(o),
@@ -158,6 +158,9 @@ Result<void> check(const SimulationOptions& options) {
   }
   if (!(options.rate_hz >= 1.0 && options.rate_hz <= 120.0)) {
     return bad("the frame rate", "1 to 120 Hz");
+  }
+  if (!(options.light_detail >= 0.05 && options.light_detail <= 4.0)) {
+    return bad("the detail of light", "0.05 to 4");
   }
   if (options.exposure.count() < 10 || to_seconds(options.exposure) > 0.5 / options.rate_hz) {
     return bad("the exposure", "10 microseconds to half a frame period");

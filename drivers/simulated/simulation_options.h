@@ -45,6 +45,7 @@ struct SimulationOptions {
   std::chrono::microseconds exposure{4000};
   double exposure_drift = 0.0;  // brightness wanders by this share: 0.25 is a quarter up and down
   bool motion_blur = false;     // several looks per exposure; takes as many times as long
+  double light_detail = 1.0;    // below 1 the light is coarser, and the world quicker to make
   double image_noise = 1.0;     // multiplies shot and readout noise
 
   double range_noise_m = 0.01;  // one sigma; the datasheet's 3 cm is the bound of it

@@ -170,11 +170,12 @@ class StreetBuilder {
     const float height = front.height();
     build_.box(front.at(front.length / 2, height - 0.3F, -0.05F), {front.length, 0.5F, 0.3F},
                front.yaw(), trim_);
-    // What of the house is seen above lower neighbours.
-    build_.box(front.at(front.length / 2, 0.0F, 4.3F), {front.length - 0.02F, 8.0F, height - 0.02F},
-               front.yaw(), front.wall);
+    // What of the house is seen above lower neighbours, of which none is lower than two floors.
+    constexpr float kHidden = 6.0F;
+    build_.box(front.at(front.length / 2, kHidden, 4.3F),
+               {front.length - 0.02F, 8.0F, height - kHidden - 0.02F}, front.yaw(), front.wall);
     for (const float x : {0.01F, front.length - 0.01F}) {
-      build_.panel(front.at(x, 0.0F), 0.4F * front.into(), {0, 0, height}, front.wall);
+      build_.panel(front.at(x, kHidden), 0.4F * front.into(), {0, 0, height - kHidden}, front.wall);
     }
     build_.column(front.at(0.15F, 0.0F, -0.09F), 0.05F, height - 0.3F, 8, metal_);
     if (random_.chance(0.6)) {
@@ -343,7 +344,7 @@ Scene make_street(std::uint64_t seed) {
   scene.daylight.sky = 0.95F;
   scene.daylight.towards_sun = {0.35F, -0.42F, 0.84F};
   scene.bounced_light = 0.3F;
-  scene.light_spacing_m = 0.2F;
+  scene.light_spacing_m = 0.3F;
   scene.exposure_gain = 150.0F;
   scene.walk.corners = {{-28.4, -6.3}, {28.4, -6.3}, {28.4, 6.3}, {-28.4, 6.3}};
   scene.walk.corner_m = 2.0;
