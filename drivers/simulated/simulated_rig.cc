@@ -77,10 +77,10 @@ RigConfig simulated_rig_config(const SimulationOptions& options) {
 }
 
 struct SimulatedRig::Parts {
-  explicit Parts(const SimulationOptions& o)
+  Parts(const SimulationOptions& o, Scene scene)
       : options(o),
         config(simulated_rig_config(o)),
-        world(make_scene(o)),
+        world(std::move(scene)),
         walk(std::make_shared<const Walk>(world.scene().walk, o.seed)),
         faults(o.faults, o.seed),
         camera_clock(o),
@@ -109,7 +109,10 @@ struct SimulatedRig::Parts {
 };
 
 SimulatedRig::SimulatedRig(const SimulationOptions& options)
-    : parts_(std::make_unique<Parts>(options)) {}
+    : SimulatedRig(options, make_scene(options)) {}
+
+SimulatedRig::SimulatedRig(const SimulationOptions& options, Scene scene)
+    : parts_(std::make_unique<Parts>(options, std::move(scene))) {}
 
 SimulatedRig::~SimulatedRig() = default;
 

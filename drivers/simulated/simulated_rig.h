@@ -13,12 +13,18 @@
 
 namespace sparsight {
 
+namespace simulated {
+struct Scene;
+}
+
 // A rig that a person carries through a made place: frames, trigger edges, LiDAR packets with the
 // timing, noise and clocks of the real devices. The same options give the same bytes. Frames are
 // rendered ahead on threads of their own. Thread-bound.
 class SimulatedRig : public RigEventSource {
  public:
   explicit SimulatedRig(const SimulationOptions& options);
+  // In a place of one's own instead of that of the options.
+  SimulatedRig(const SimulationOptions& options, simulated::Scene scene);
   ~SimulatedRig() override;
   SimulatedRig(const SimulatedRig&) = delete;
   SimulatedRig& operator=(const SimulatedRig&) = delete;
