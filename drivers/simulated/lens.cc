@@ -26,7 +26,11 @@ Eigen::Vector2d unproject(const CameraIntrinsics& camera, const Eigen::Vector2d&
   if (!camera.distorted()) return seen;
   // The distortion is a contraction for lenses like ours: its fixed point is found in few steps.
   Eigen::Vector2d ideal = seen;
-  for (int i = 0; i < 30; ++i) ideal += seen - distorted(camera, ideal);
+  for (int i = 0; i < 30; ++i) {
+    const Eigen::Vector2d missing = seen - distorted(camera, ideal);
+    ideal += missing;
+    if (missing.squaredNorm() < 1e-22) break;
+  }
   return ideal;
 }
 

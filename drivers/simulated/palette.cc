@@ -239,7 +239,7 @@ int Palette::paving() {
 }
 
 int Palette::asphalt() {
-  const int index = plain(0.24F, 0.25F, 0.3F, 12);
+  const int index = plain(0.3F, 0.25F, 0.3F, 12);
   library_.materials[static_cast<std::size_t>(index)].detail_m = 0.9F;
   return index;
 }

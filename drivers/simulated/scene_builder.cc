@@ -95,10 +95,11 @@ void SceneBuilder::foliage(const Vector3f& middle, const Vector3f& radii, int le
     Vector3f normal = d + 0.8F * Vector3f(random_.uniform_f(-1, 1), random_.uniform_f(-1, 1),
                                           random_.uniform_f(-0.6, 1));
     normal.normalize();
-    const Vector3f right = normal.cross(Vector3f(0.31F, -0.22F, 0.92F)).normalized() * leaf_m *
-                           random_.uniform_f(0.6, 1.2);
+    const Vector3f right = normal.cross(Vector3f(0.31F, -0.22F, 0.92F)).normalized() * 1.4F *
+                           leaf_m * random_.uniform_f(0.6, 1.2);
     const Vector3f up = normal.cross(right) * random_.uniform_f(0.5, 0.9);
-    panel(at - 0.5F * right - 0.5F * up, right, up, material);
+    // Pointed at both ends.
+    quad({at - 0.5F * right, at - 0.35F * up, at + 0.5F * right, at + 0.65F * up}, material);
   }
 }
 

@@ -191,7 +191,7 @@ class StreetBuilder {
   }
 
   void furniture(float side) {
-    const int leaves = palette_.leaves(random_.uniform_f(0.17, 0.24));
+    const int leaves = palette_.leaves(random_.uniform_f(0.26, 0.38));
     for (float x = -34.0F; x < 35.0F; x += random_.uniform_f(9.0, 13.0)) {
       const Vector3f foot(x, side * (kKerb + 0.75F), kKerbHeight);
       build_.column(foot, 0.17F, 3.4F, 10, bark_, 0.10F);
@@ -262,7 +262,7 @@ class StreetBuilder {
   // Looks along x (or back); the windows slope.
   void car(const Vector3f& foot, float way, float scale) {
     const int paint = palette_.plain(
-        random_.chance(0.5) ? random_.uniform_f(0.08, 0.25) : random_.uniform_f(0.45, 0.75), 0.12F,
+        random_.chance(0.5) ? random_.uniform_f(0.14, 0.3) : random_.uniform_f(0.45, 0.75), 0.12F,
         0.03F, 55);
     const float h = scale * random_.uniform_f(0.95, 1.15);
     const auto at = [&](float x, float y, float z) -> Vector3f {
@@ -341,11 +341,11 @@ Scene make_street(std::uint64_t seed) {
   Scene scene;
   StreetBuilder(scene, seed ^ 0x574ee7U).build();
   scene.daylight.sun = 0.9F;
-  scene.daylight.sky = 0.95F;
-  scene.daylight.towards_sun = {0.35F, -0.42F, 0.84F};
-  scene.bounced_light = 0.3F;
+  scene.daylight.sky = 0.85F;
+  scene.daylight.towards_sun = {0.62F, -0.3F, 0.72F};
+  scene.bounced_light = 0.55F;
   scene.light_spacing_m = 0.3F;
-  scene.exposure_gain = 150.0F;
+  scene.exposure_gain = 290.0F;
   scene.walk.corners = {{-28.4, -6.3}, {28.4, -6.3}, {28.4, 6.3}, {-28.4, 6.3}};
   scene.walk.corner_m = 2.0;
   scene.walk.height_m = 1.55 + kKerbHeight;

@@ -104,14 +104,14 @@ TEST(SimulatedRig, GivesTheSameBytesForTheSameSeed) {
 
 TEST(SimulatedRig, FiresFromWhereTheSensorIsAtEachFiring) {
   // Under way and turning: a pose a packet off would be millimetres off.
-  const SimulationOptions options = small_options(5.0);
+  const SimulationOptions options = small_options(3.5);
   SimulatedRig rig(options, bare_room());
   std::vector<double> errors;
   std::size_t firings = 0;
   int number = 0;
   while (const std::optional<RigEvent> event = rig.next()) {
     const auto* packet = std::get_if<LidarPacket>(&*event);
-    if (packet == nullptr || ++number % 37 != 0) continue;
+    if (packet == nullptr || ++number % 23 != 0) continue;
     firings += 384;
     for (const CastReturn& found : returns_of(*packet, rig.ground_truth())) {
       const auto distance = rig.distance(found.origin_world, found.direction_world);
