@@ -37,7 +37,7 @@ std::vector<std::uint8_t> FrameStream::look(std::uint64_t number) const {
   const FrameTimes times = context_.clock.frame(number);
   const Eigen::Isometry3d T_lidar_camera = context_.calibration.T_camera_lidar.inverse();
   const auto light_at = [&](Elapsed at) {
-    return renderer_.render(context_.walk.T_world_lidar(to_seconds(at)) * T_lidar_camera);
+    return renderer_.render(context_.walk.lidar_pose(to_seconds(at)) * T_lidar_camera);
   };
   if (!context_.options.motion_blur) return imager_.expose(light_at(times.middle), number);
   std::vector<float> sum;

@@ -17,18 +17,18 @@ SimulatedTruth::SimulatedTruth(std::shared_ptr<const simulated::Walk> walk, Host
       T_lidar_camera_(T_camera_lidar.inverse()),
       exposures_(std::move(exposures)) {}
 
-Eigen::Isometry3d SimulatedTruth::T_world_lidar(HostTime at) const {
-  return walk_->T_world_lidar(to_seconds(at - start_));
+Eigen::Isometry3d SimulatedTruth::lidar_pose(HostTime at) const {
+  return walk_->lidar_pose(to_seconds(at - start_));
 }
 
-Eigen::Isometry3d SimulatedTruth::T_world_camera(HostTime at) const {
-  return T_world_lidar(at) * T_lidar_camera_;
+Eigen::Isometry3d SimulatedTruth::camera_pose(HostTime at) const {
+  return lidar_pose(at) * T_lidar_camera_;
 }
 
 std::string SimulatedTruth::tum() const {
   std::string text;
   for (const HostTime& at : exposures_) {
-    const Eigen::Isometry3d T_world_camera = this->T_world_camera(at);
+    const Eigen::Isometry3d T_world_camera = camera_pose(at);
     const Eigen::Vector3d p = T_world_camera.translation();
     const Eigen::Quaterniond q(T_world_camera.linear());
     const std::int64_t ns = at.time_since_epoch().count();

@@ -20,8 +20,8 @@ class SimulatedTruth {
   SimulatedTruth(std::shared_ptr<const simulated::Walk> walk, HostTime start,
                  const Eigen::Isometry3d& T_camera_lidar, std::vector<HostTime> exposures);
 
-  Eigen::Isometry3d T_world_lidar(HostTime at) const;
-  Eigen::Isometry3d T_world_camera(HostTime at) const;
+  Eigen::Isometry3d lidar_pose(HostTime at) const;   // T_world_lidar
+  Eigen::Isometry3d camera_pose(HostTime at) const;  // T_world_camera
   // Middle of every exposure, also of frames that a fault takes away.
   const std::vector<HostTime>& exposures() const { return exposures_; }
 

@@ -87,7 +87,7 @@ struct SimulatedRig::Parts {
         pulses(o.seed),
         lidar_clock(options, faults, pulses),
         scanner(world, lidar_clock, pulses, options,
-                [this](Elapsed at) { return walk->T_world_lidar(to_seconds(at)); }),
+                [this](Elapsed at) { return walk->lidar_pose(to_seconds(at)); }),
         truth(walk, o.start, config.calibration.T_camera_lidar, exposures(o, camera_clock)),
         streams{std::make_unique<StateStream>(options),
                 std::make_unique<EdgeStream>(options, camera_clock, pulses, faults),
@@ -138,7 +138,7 @@ const SimulationOptions& SimulatedRig::options() const { return parts_->options;
 
 std::vector<float> SimulatedRig::camera_depth(HostTime at) const {
   return FrameRenderer(parts_->world, parts_->config.calibration.camera)
-      .depth(parts_->truth.T_world_camera(at));
+      .depth(parts_->truth.camera_pose(at));
 }
 
 std::optional<double> SimulatedRig::distance(const Eigen::Vector3d& p_world,

@@ -162,7 +162,7 @@ double Walk::wander(const Wander& waves, double seconds) const {
   return sum;
 }
 
-Eigen::Isometry3d Walk::T_world_lidar(double seconds) const {
+Eigen::Isometry3d Walk::lidar_pose(double seconds) const {
   const double walked = walked_m(seconds);
   const double laps = (plan_.start_m + walked) / lap_m_;
   // At rest a hand still moves a little.

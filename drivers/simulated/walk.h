@@ -41,8 +41,9 @@ class Walk {
  public:
   Walk(const WalkPlan& plan, std::uint64_t seed);
 
-  // Seconds since the walk began; the rig is the LiDAR's frame, x ahead, y left, z up.
-  Eigen::Isometry3d T_world_lidar(double seconds) const;
+  // T_world_lidar at seconds since the walk began; the rig is the LiDAR's frame, x ahead, y left, z
+  // up.
+  Eigen::Isometry3d lidar_pose(double seconds) const;
   double lap_m() const { return lap_m_; }
 
  private:

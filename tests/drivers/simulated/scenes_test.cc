@@ -26,7 +26,7 @@ TEST_P(EveryScene, HasRoomForTheWalk) {
   const double lap_s = walk.lap_m() / world.scene().walk.speed_m_s;
   double nearest = 1e9;
   for (double t = 0.0; t < lap_s; t += 0.1) {
-    const Eigen::Isometry3d T_world_lidar = walk.T_world_lidar(t);
+    const Eigen::Isometry3d T_world_lidar = walk.lidar_pose(t);
     for (int i = 0; i < 12; ++i) {
       const double angle = i * M_PI / 6;
       const Hit hit =

@@ -45,7 +45,7 @@ std::vector<CastReturn> returns_of(const LidarPacket& packet, const SimulatedTru
       const LaserPlacement& laser = kVlp16LaserTable[k % 16];
       const double elevation = laser.elevation_deg * M_PI / 180;
       const Eigen::Isometry3d T_world_lidar =
-          truth.T_world_lidar(first + firing_offset(2 * block + k / 16, k % 16));
+          truth.lidar_pose(first + firing_offset(2 * block + k / 16, k % 16));
       const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
                                       -std::cos(elevation) * std::sin(azimuth),
                                       std::sin(elevation));
@@ -132,7 +132,7 @@ TEST(SimulatedRig, ShowsInTheImageWhatTheLidarMeasures) {
   const CameraIntrinsics camera = rig.rig_config().calibration.camera;
   const HostTime exposure = truth.exposures()[6];
   const std::vector<float> depth = rig.camera_depth(exposure);
-  const Eigen::Isometry3d T_camera_world = truth.T_world_camera(exposure).inverse();
+  const Eigen::Isometry3d T_camera_world = truth.camera_pose(exposure).inverse();
   std::vector<double> errors;
   while (const std::optional<RigEvent> event = rig.next()) {
     const auto* packet = std::get_if<LidarPacket>(&*event);
@@ -216,7 +216,7 @@ TEST(SimulatedRig, WritesItsTruthAsTum) {
        ++count) {
     const HostTime exposure = rig.ground_truth().exposures().at(count);
     EXPECT_NEAR(t, to_seconds(exposure.time_since_epoch()), 1e-6);
-    const Eigen::Isometry3d T_world_camera = rig.ground_truth().T_world_camera(exposure);
+    const Eigen::Isometry3d T_world_camera = rig.ground_truth().camera_pose(exposure);
     EXPECT_LT((T_world_camera.translation() - Eigen::Vector3d(x, y, z)).norm(), 2e-9);
     EXPECT_NEAR(
         std::abs(

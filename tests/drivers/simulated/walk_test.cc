@@ -18,16 +18,16 @@ WalkPlan square_walk() {
 TEST(Walk, BeginsAtRest) {
   const Walk walk(square_walk(), 3);
   const double moved =
-      (walk.T_world_lidar(0.6).translation() - walk.T_world_lidar(0.0).translation()).norm();
+      (walk.lidar_pose(0.6).translation() - walk.lidar_pose(0.0).translation()).norm();
   EXPECT_LT(moved, 0.02);
-  EXPECT_NEAR(walk.T_world_lidar(0.0).translation().z(), square_walk().height_m, 0.02);
+  EXPECT_NEAR(walk.lidar_pose(0.0).translation().z(), square_walk().height_m, 0.02);
 }
 
 TEST(Walk, GoesAtWalkingPace) {
   const Walk walk(square_walk(), 3);
   for (double t = 4.0; t < 30.0; t += 1.0) {
     const double speed =
-        (walk.T_world_lidar(t + 1.0).translation() - walk.T_world_lidar(t).translation()).norm();
+        (walk.lidar_pose(t + 1.0).translation() - walk.lidar_pose(t).translation()).norm();
     EXPECT_GT(speed, 0.6) << t;
     EXPECT_LT(speed, 1.5) << t;
   }
@@ -38,13 +38,13 @@ TEST(Walk, HasNoJumpInPoseVelocityOrAcceleration) {
   const Walk walk(square_walk(), 5);
   constexpr double kStep = 1e-3;
   const auto acceleration = [&](double t) -> Eigen::Vector3d {
-    return (walk.T_world_lidar(t + kStep).translation() - 2 * walk.T_world_lidar(t).translation() +
-            walk.T_world_lidar(t - kStep).translation()) /
+    return (walk.lidar_pose(t + kStep).translation() - 2 * walk.lidar_pose(t).translation() +
+            walk.lidar_pose(t - kStep).translation()) /
            (kStep * kStep);
   };
   const auto turning = [&](double t) {
-    return Eigen::AngleAxisd(walk.T_world_lidar(t - kStep).linear().transpose() *
-                             walk.T_world_lidar(t + kStep).linear())
+    return Eigen::AngleAxisd(walk.lidar_pose(t - kStep).linear().transpose() *
+                             walk.lidar_pose(t + kStep).linear())
                .angle() /
            (2 * kStep);
   };
@@ -61,8 +61,8 @@ TEST(Walk, ReturnsToItsStartAfterALap) {
   plan.look_yaw_deg = 0.0;
   const Walk walk(plan, 7);
   const double lap_s = walk.lap_m() / plan.speed_m_s + plan.rest_s + 0.5 * plan.ramp_s;
-  const Eigen::Isometry3d start = walk.T_world_lidar(0.0);
-  const Eigen::Isometry3d end = walk.T_world_lidar(lap_s);
+  const Eigen::Isometry3d start = walk.lidar_pose(0.0);
+  const Eigen::Isometry3d end = walk.lidar_pose(lap_s);
   EXPECT_LT((end.translation() - start.translation()).norm(), 0.4);
   EXPECT_LT(Eigen::AngleAxisd(start.linear().transpose() * end.linear()).angle(), 0.4);
 }
@@ -72,7 +72,7 @@ TEST(Walk, OfTheCorridorIsALapOfSixtyMetresInAMinute) {
   const Walk walk(scene.walk, 1);
   EXPECT_NEAR(walk.lap_m(), 60.0, 2.0);
   const Eigen::Vector3d gap =
-      walk.T_world_lidar(60.0).translation() - walk.T_world_lidar(0.0).translation();
+      walk.lidar_pose(60.0).translation() - walk.lidar_pose(0.0).translation();
   EXPECT_LT(gap.norm(), 1.0);
 }
 
