@@ -8,6 +8,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   sparsight::add_replay(app, exit_code);
   sparsight::add_evaluate(app, exit_code);
+  sparsight::add_simulate(app, exit_code);
   sparsight::add_benchmark(app, exit_code);
   sparsight::add_recover(app, exit_code);
   sparsight::add_doctor(app, exit_code);

@@ -9,6 +9,7 @@ namespace sparsight {
 // Each adds its subcommand; when it is called it runs and stores 0 (done), 1 (failed) or 2 (usage).
 void add_replay(CLI::App& app, int& exit_code);
 void add_evaluate(CLI::App& app, int& exit_code);
+void add_simulate(CLI::App& app, int& exit_code);
 void add_benchmark(CLI::App& app, int& exit_code);
 void add_recover(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);

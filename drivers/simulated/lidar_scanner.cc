@@ -1,0 +1,128 @@
+#include "drivers/simulated/lidar_scanner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "drivers/simulated/random.h"
+#include "drivers/vlp16/packet_writer.h"
+#include "drivers/vlp16/vlp16_geometry.h"
+
+namespace sparsight::simulated {
+namespace {
+
+constexpr float kNearestM = 0.45F;
+constexpr float kFarthestM = 105.0F;
+// On the wire at 100 Mbit/s: 1248 and 554 bytes.
+constexpr Elapsed kDataOnWire{99'840};
+constexpr Elapsed kPositionOnWire{44'320};
+
+// Of the network and the kernel: never less than a floor, sometimes much more.
+Elapsed network_delay(Random& random) {
+  const double late = random.chance(0.004) ? random.uniform(0.0, 2e-3) : 0.0;
+  return Elapsed{static_cast<std::int64_t>(1e9 * (45e-6 + random.exponential(35e-6) + late))};
+}
+
+// The beginning of the second that the pulse marked.
+std::string gprmc(std::int64_t second_of_day) {
+  const std::string body =
+      fmt::format("GPRMC,{:02}{:02}{:02}.00,A,4723.0000,N,00832.0000,E,000.0,000.0,150626,,,A",
+                  second_of_day / 3600 % 24, second_of_day / 60 % 60, second_of_day % 60);
+  unsigned check = 0;
+  for (const char c : body) check ^= static_cast<unsigned char>(c);
+  return fmt::format("${}*{:02X}\r\n", body, check);
+}
+
+}  // namespace
+
+LidarScanner::LidarScanner(const World& world, const LidarClock& clock, const PulseClock& pulses,
+                           const SimulationOptions& options, PoseAt pose)
+    : world_(world), clock_(clock), pulses_(pulses), options_(options), pose_(std::move(pose)) {}
+
+Ray LidarScanner::beam(std::uint64_t packet, std::size_t sequence, std::size_t laser) const {
+  const Elapsed fired = clock_.firing(packet, firing_offset(sequence, laser).count());
+  const Eigen::Isometry3d T_world_lidar = pose_(fired);
+  const LaserPlacement& placement = kVlp16LaserTable[laser];
+  const double azimuth = clock_.azimuth_deg(fired) * M_PI / 180.0;
+  const double elevation = placement.elevation_deg * M_PI / 180.0;
+  const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
+                                  -std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+  const Eigen::Vector3d origin(0.0, 0.0, placement.vertical_offset_mm * 1e-3);
+  return {(T_world_lidar * origin).cast<float>(),
+          (T_world_lidar.linear() * direction).cast<float>()};
+}
+
+float LidarScanner::reflectivity(const Ray& ray, const Hit& hit) const {
+  const Material& material = world_.material_of(hit.panel);
+  const auto nominal = static_cast<float>(material.reflectivity);
+  if (material.reflectivity > 100) return nominal;
+  // Dark print gives back less; the beam is 9.5 mm wide and spreads by 3 mrad.
+  const PanelFrame& frame = world_.frame(hit.panel);
+  const Eigen::Vector3f at = ray.origin + hit.distance * ray.direction - frame.origin;
+  const float spot = 0.0095F + 0.003F * hit.distance;
+  const float albedo =
+      world_.scene().library.albedo(material, {at.dot(frame.right), at.dot(frame.up)}, frame.offset,
+                                    {Eigen::Vector2f(spot, 0.0F), Eigen::Vector2f(0.0F, spot)});
+  return std::clamp(nominal * (0.55F + 0.9F * albedo), 1.0F, 100.0F);
+}
+
+std::pair<std::uint16_t, std::uint8_t> LidarScanner::measure(const Ray& ray, const Hit& hit,
+                                                             Random& random) const {
+  // The same number of draws whatever is hit, so that one change does not shift all that follow.
+  const double noise = std::clamp(random.gaussian(), -3.0, 3.0) * options_.range_noise_m;
+  const double luck = random.unit();
+  const double tone = random.uniform(-1.5, 1.5);
+  if (!hit.any() || hit.distance < kNearestM) return {};
+  const PanelFrame& frame = world_.frame(hit.panel);
+  const float cosine = std::abs(ray.direction.dot(frame.normal));
+  const float reflected = reflectivity(ray, hit);
+  // A tenth of diffuse reflection is seen to 100 m; light falls off with the square.
+  const double reach = 100.0 * std::sqrt(reflected * cosine / 10.0);
+  const double lost = world_.material_of(hit.panel).dropout + (cosine < 0.05F ? 0.3 : 0.0);
+  if (hit.distance > reach || luck < lost) return {};
+  const double range = std::max(0.0, hit.distance + noise);
+  return {static_cast<std::uint16_t>(std::lround(range / kVlp16DistanceUnitM)),
+          static_cast<std::uint8_t>(std::clamp(std::lround(reflected + tone), 1L, 255L))};
+}
+
+LidarPacket LidarScanner::packet(std::uint64_t number) const {
+  Random random(options_.seed, 0xda7a, number);
+  std::array<FiringSequence, kVlp16SequencesPerPacket> sequences;
+  for (std::size_t s = 0; s < sequences.size(); ++s) {
+    const Elapsed first = clock_.firing(number, firing_offset(s, 0).count());
+    const double turned = std::fmod(clock_.azimuth_deg(first), 360.0);
+    sequences[s].azimuth_centideg = static_cast<std::uint16_t>(std::lround(turned * 100.0) % 36000);
+    for (std::size_t laser = 0; laser < kVlp16Lasers; ++laser) {
+      const Ray ray = beam(number, s, laser);
+      const auto [distance, reflected] = measure(ray, world_.cast(ray, 0.05F, kFarthestM), random);
+      sequences[s].distance_2mm[laser] = distance;
+      sequences[s].reflectivity[laser] = reflected;
+    }
+  }
+  LidarPacket packet;
+  const Elapsed start = clock_.packet_start(number);
+  packet.payload =
+      write_data_packet(sequences, clock_.microseconds_past_hour(start), ReturnMode::kStrongest);
+  // A packet leaves when it is full.
+  packet.arrival = HostTime{clock_.packet_start(number + 1) + kDataOnWire + network_delay(random)};
+  return packet;
+}
+
+PositionPacket LidarScanner::position(std::uint64_t after_packet) const {
+  Random random(options_.seed, 0x9051, after_packet);
+  const Elapsed made = clock_.packet_start(after_packet + 1) + Elapsed{310'000};
+  PositionPacket packet;
+  const std::int64_t pulse = pulses_.last_before(made);
+  packet.payload = write_position_packet(
+      clock_.microseconds_past_hour(made), options_.pps ? PpsState::kLocked : PpsState::kAbsent,
+      options_.pps ? gprmc(pulses_.second_of_day(pulse)) : std::string());
+  packet.arrival = HostTime{made + kPositionOnWire + network_delay(random)};
+  return packet;
+}
+
+}  // namespace sparsight::simulated

@@ -1,0 +1,155 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tools/session/simulate_session.h"
+#include "tools/sparsight/subcommands.h"
+
+namespace sparsight {
+namespace {
+
+const std::map<std::string, SimulatedScene> kScenes{{"corridor", SimulatedScene::kCorridor},
+                                                    {"hall", SimulatedScene::kHall},
+                                                    {"street", SimulatedScene::kStreet}};
+const std::map<std::string, DeviceKind> kDevices{{"camera", DeviceKind::kCamera},
+                                                 {"lidar", DeviceKind::kLidar},
+                                                 {"trigger", DeviceKind::kTrigger}};
+
+struct SimulateArguments {
+  SimulateSession session;
+  double duration_s = 60.0;
+  std::string size = "800x600";
+  double exposure_ms = 4.0;
+  bool rectified = false;
+  bool no_pps = false;
+  std::vector<double> clock_jump;
+  std::vector<std::string> away;
+  bool quiet = false;
+};
+
+std::chrono::nanoseconds from_seconds(double seconds) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(seconds));
+}
+
+bool read_size(const std::string& text, SimulationOptions& options) {
+  char rest = 0;
+  return std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &rest) == 2;
+}
+
+// DEVICE:FROM:SECONDS
+bool read_away(const std::string& text, SimulatedFaults& faults) {
+  const std::size_t colon = text.find(':');
+  const auto device = kDevices.find(text.substr(0, colon));
+  if (colon == std::string::npos || device == kDevices.end()) return false;
+  double from = 0.0;
+  double lasting = 0.0;
+  char rest = 0;
+  if (std::sscanf(text.c_str() + colon, ":%lf:%lf%c", &from, &lasting, &rest) != 2) return false;
+  if (!(from >= 0.0 && lasting > 0.0 && from < 1e5 && lasting < 1e5)) return false;
+  faults.away.push_back({device->second, from_seconds(from), from_seconds(lasting)});
+  return true;
+}
+
+int usage(const std::string& problem) {
+  std::fprintf(stderr, "sparsight simulate: %s\n", problem.c_str());
+  return 2;
+}
+
+int simulate(SimulateArguments arguments) {
+  SimulationOptions& options = arguments.session.options;
+  options.duration = from_seconds(arguments.duration_s);
+  options.exposure = std::chrono::microseconds(static_cast<long>(1000.0 * arguments.exposure_ms));
+  options.lens = arguments.rectified ? SimulatedLens::kRectified : SimulatedLens::kMild;
+  options.pps = !arguments.no_pps;
+  if (!read_size(arguments.size, options)) return usage("--size is WIDTHxHEIGHT, as in 800x600");
+  if (arguments.clock_jump.size() == 2) {
+    options.faults.lidar_clock_jump = {from_seconds(arguments.clock_jump[0]),
+                                       from_seconds(arguments.clock_jump[1])};
+  }
+  for (const std::string& away : arguments.away) {
+    if (!read_away(away, options.faults)) {
+      return usage("--away is camera|lidar|trigger:FROM:SECONDS, as in camera:10:3, not " + away);
+    }
+  }
+  if (arguments.session.output.empty() && arguments.session.frames.empty()) {
+    return usage("nothing to write: give --output FILE.mcap, or --frames FOLDER");
+  }
+  if (const Result<void> checked = check(options); !checked) return usage(checked.error().message);
+  const Progress::Style style = Progress::style_for(stderr, arguments.quiet);
+  const Result<std::string> summary = run_simulation(arguments.session, style);
+  if (!summary) {
+    std::fprintf(stderr, "sparsight simulate: %s\n", summary.error().message.c_str());
+    return 1;
+  }
+  if (!arguments.quiet) std::fputs(summary->c_str(), stdout);
+  return 0;
+}
+
+void add_faults(CLI::App& command, SimulateArguments& arguments) {
+  SimulatedFaults& faults = arguments.session.options.faults;
+  const CLI::Range share(0.0, 1.0);
+  command.add_option("--lose-frames", faults.lost_frames, "Share of frames that are lost")
+      ->check(share);
+  command.add_option("--lose-edges", faults.lost_edges, "Share of trigger edges that are lost")
+      ->check(share);
+  command.add_option("--lose-packets", faults.lost_packets, "Share of LiDAR packets that are lost")
+      ->check(share);
+  command
+      .add_option("--lidar-clock-jump", arguments.clock_jump,
+                  "AT BY: after AT seconds the LiDAR's clock is set on by BY seconds")
+      ->expected(2);
+  command
+      .add_option("--away", arguments.away,
+                  "DEVICE:FROM:SECONDS: camera, lidar or trigger is gone for a while")
+      ->allow_extra_args(false);
+}
+
+void add_look(CLI::App& command, SimulateArguments& arguments) {
+  SimulationOptions& options = arguments.session.options;
+  command.add_option("--size", arguments.size, "Of the frames, pixels")->capture_default_str();
+  command.add_option("--rate", options.rate_hz, "Frames a second")->capture_default_str();
+  command.add_option("--exposure-ms", arguments.exposure_ms, "Exposure time, milliseconds")
+      ->capture_default_str();
+  command
+      .add_option("--exposure-drift", options.exposure_drift,
+                  "Brightness wanders by this share; 0.25 is a quarter up and down")
+      ->check(CLI::Range(0.0, 0.9));
+  command.add_flag("--motion-blur", options.motion_blur,
+                   "Blur by motion; takes five times as long");
+  command.add_flag("--rectified", arguments.rectified, "A lens without distortion");
+  command.add_flag("--no-pps", arguments.no_pps, "No PPS: the LiDAR's clock runs free");
+  command.add_option("--lidar-drift-ppm", options.lidar_clock_drift_ppm, "Of the LiDAR's clock")
+      ->check(CLI::Range(-200.0, 200.0))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<SimulateArguments>();
+  CLI::App* command = app.add_subcommand(
+      "simulate", "Make a recording of a simulated rig, with its ground truth beside it");
+  command->add_option("--scene", arguments->session.options.scene, "corridor, hall or street")
+      ->transform(CLI::CheckedTransformer(kScenes, CLI::ignore_case))
+      ->default_str("corridor");
+  command->add_option("--duration", arguments->duration_s, "Seconds; a corridor lap takes 60")
+      ->check(CLI::Range(0.1, 14400.0))
+      ->capture_default_str();
+  command->add_option("--seed", arguments->session.options.seed, "Same seed, same bytes")
+      ->capture_default_str();
+  command->add_option("--output", arguments->session.output,
+                      "Recording to write (.mcap); FILE.ground_truth.tum goes beside it");
+  command->add_option("--frames", arguments->session.frames,
+                      "Folder for the frames as PNG files and ground_truth.tum, to look at");
+  add_look(*command, *arguments);
+  add_faults(*command, *arguments);
+  command->add_flag("--quiet", arguments->quiet, "No progress, no summary");
+  command->callback([arguments, &exit_code] { exit_code = simulate(*arguments); });
+}
+
+}  // namespace sparsight
