@@ -55,7 +55,7 @@ class SimulationOutput {
 
   Result<void> close(const SimulatedTruth& truth) {
     if (!session_.frames.empty()) {
-      const Result<void> done = truth.write_tum(session_.frames + "/ground_truth.tum");
+      Result<void> done = truth.write_tum(session_.frames + "/ground_truth.tum");
       if (!done) return done;
     }
     if (!writer_) return {};
