@@ -127,9 +127,13 @@ void Odometry::State::learn(const SynchronizedFrame& frame, const TrackingResult
 }
 
 std::unique_ptr<Keyframe> Odometry::State::make_keyframe(const SynchronizedFrame& frame) const {
-  const Vector6d twist = motion.twist().value_or(Vector6d::Zero());
+  const Eigen::Isometry3d T_exposure_keyframe = motion.at(frame.exposure).inverse();
+  const auto motion_around = [&](double seconds) -> Eigen::Isometry3d {
+    return T_exposure_keyframe *
+           motion.at(frame.exposure + std::chrono::nanoseconds(std::llround(1e9 * seconds)));
+  };
   const std::vector<CameraReturn> returns =
-      returns_in_image(frame.sweep, camera, calibration.T_camera_lidar, twist);
+      returns_in_image(frame.sweep, camera, calibration.T_camera_lidar, motion_around);
 
   auto keyframe = std::make_unique<Keyframe>();
   keyframe->sequence = frame.sequence;

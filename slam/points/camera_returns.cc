@@ -10,7 +10,8 @@ namespace {
 // is dear. A slot of a 10 Hz sweep lasts 0.2 ms, 6 mm at 30 m/s.
 class MotionTable {
  public:
-  MotionTable(const Sweep& sweep, const Eigen::Isometry3d& T_camera_lidar, const Vector6d& twist) {
+  MotionTable(const Sweep& sweep, const Eigen::Isometry3d& T_camera_lidar,
+              const MotionAround& motion) {
     if (!sweep.motion_compensated) {
       for (const LidarReturn& r : sweep.returns) {
         first_ns_ = std::min(first_ns_, r.from_exposure_ns);
@@ -21,7 +22,7 @@ class MotionTable {
     slot_ns_ = (static_cast<double>(last_ns_) - first_ns_) / slots;
     for (int i = 0; i < slots; ++i) {
       const double seconds = 1e-9 * (first_ns_ + (i + 0.5) * slot_ns_);
-      const Eigen::Isometry3d T_exposure_firing = exp_se3(twist * seconds);
+      const Eigen::Isometry3d T_exposure_firing = motion(seconds);
       table_.push_back((T_exposure_firing * T_camera_lidar).matrix().topRows<3>().cast<float>());
     }
   }
@@ -46,14 +47,18 @@ class MotionTable {
 
 }  // namespace
 
+MotionAround constant_motion(const Vector6d& twist) {
+  return [twist](double seconds) { return exp_se3(twist * seconds); };
+}
+
 std::vector<CameraReturn> returns_in_image(const Sweep& sweep, const CameraModel& camera,
                                            const Eigen::Isometry3d& T_camera_lidar,
-                                           const Vector6d& twist) {
-  const MotionTable motion(sweep, T_camera_lidar, twist);
+                                           const MotionAround& motion) {
+  const MotionTable table(sweep, T_camera_lidar, motion);
   std::vector<CameraReturn> result;
   result.reserve(sweep.returns.size() / 2);
   for (const LidarReturn& r : sweep.returns) {
-    const Eigen::Vector3f p = motion.in_camera(r);
+    const Eigen::Vector3f p = table.in_camera(r);
     Eigen::Vector2d pixel;
     if (!camera.project(p.cast<double>(), pixel) || !camera.contains(pixel, 0.0)) continue;
     result.push_back(

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "hal/sweep.h"
@@ -19,11 +20,17 @@ struct CameraReturn {
   std::uint16_t ring = 0;
 };
 
+// T_exposure_time: where the camera was some seconds after the exposure (before it: negative), in
+// the camera frame at the exposure.
+using MotionAround = std::function<Eigen::Isometry3d(double seconds)>;
+// twist: [rad/s, m/s] in the camera frame.
+MotionAround constant_motion(const Vector6d& twist);
+
 // Sec. IV-B1: the returns in the camera frame. Of a sweep that is not motion-compensated each
-// return is moved from its firing to the exposure with the camera's velocity `twist` ([rad/s, m/s],
-// camera frame). Returns outside the image are dropped; the order is kept.
+// return is moved from its firing to the exposure. Returns outside the image are dropped; the order
+// is kept.
 std::vector<CameraReturn> returns_in_image(const Sweep& sweep, const CameraModel& camera,
                                            const Eigen::Isometry3d& T_camera_lidar,
-                                           const Vector6d& twist);
+                                           const MotionAround& motion);
 
 }  // namespace sparsight

@@ -1,5 +1,7 @@
 #include "slam/tracking/motion_model.h"
 
+#include <algorithm>
+
 namespace sparsight {
 
 void MotionModel::observe(HostTime exposure, const Eigen::Isometry3d& T_keyframe_camera) {
@@ -9,11 +11,32 @@ void MotionModel::observe(HostTime exposure, const Eigen::Isometry3d& T_keyframe
   }
   last_exposure_ = exposure;
   T_keyframe_last_ = T_keyframe_camera;
+  if (recent_.size() == kRemembered) recent_.erase(recent_.begin());
+  recent_.push_back({exposure, T_keyframe_camera});
 }
 
 void MotionModel::rebase(HostTime exposure) {
+  const Eigen::Isometry3d T_new_old = at(exposure).inverse();
+  for (Observed& observed : recent_) {
+    observed.T_keyframe_camera = T_new_old * observed.T_keyframe_camera;
+  }
   last_exposure_ = exposure;
   T_keyframe_last_ = Eigen::Isometry3d::Identity();
+}
+
+Eigen::Isometry3d MotionModel::at(HostTime time) const {
+  const auto after = std::find_if(recent_.begin(), recent_.end(),
+                                  [&](const Observed& o) { return o.exposure >= time; });
+  if (after == recent_.end() || after == recent_.begin()) {
+    if (recent_.empty()) return predict_in_keyframe(time);
+    const Observed& nearest = after == recent_.end() ? recent_.back() : recent_.front();
+    const Vector6d twist = twist_.value_or(Vector6d::Zero());
+    return nearest.T_keyframe_camera * exp_se3(twist * to_seconds(time - nearest.exposure));
+  }
+  const Observed& a = *(after - 1);
+  const double share = to_seconds(time - a.exposure) / to_seconds(after->exposure - a.exposure);
+  return a.T_keyframe_camera *
+         exp_se3(share * log_se3(a.T_keyframe_camera.inverse() * after->T_keyframe_camera));
 }
 
 std::optional<double> MotionModel::seconds_since_last(HostTime exposure) const {

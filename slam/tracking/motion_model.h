@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <vector>
 
 #include "hal/time.h"
 #include "slam/geometry/se3.h"
@@ -24,8 +25,19 @@ class MotionModel {
   // Nothing before the velocity is known.
   std::optional<double> seconds_since_last(HostTime exposure) const;
   Eigen::Isometry3d predict_in_keyframe(HostTime exposure) const;
+  // Where the camera was at a time near the last frames: between two of them as they stand, beyond
+  // them by the velocity.
+  Eigen::Isometry3d at(HostTime time) const;
 
  private:
+  struct Observed {
+    HostTime exposure;
+    Eigen::Isometry3d T_keyframe_camera;
+  };
+  // A revolution of a LiDAR at 5 Hz, seen by a camera at 60 Hz.
+  static constexpr std::size_t kRemembered = 13;
+
+  std::vector<Observed> recent_;  // oldest first
   std::optional<HostTime> last_exposure_;
   Eigen::Isometry3d T_keyframe_last_ = Eigen::Isometry3d::Identity();
   std::optional<Vector6d> twist_;

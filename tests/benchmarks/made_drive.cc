@@ -37,7 +37,7 @@ std::vector<SelectedPoint> every_nth(const std::vector<SelectedPoint>& points, s
 
 std::vector<CameraReturn> MadeDrive::returns(std::size_t frame) const {
   return returns_in_image(frames[frame].sweep, CameraModel(scene.rig.camera),
-                          scene.rig.T_camera_lidar, Vector6d::Zero());
+                          scene.rig.T_camera_lidar, constant_motion(Vector6d::Zero()));
 }
 
 std::unique_ptr<Keyframe> MadeDrive::keyframe(std::size_t frame) const {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tools/evaluation/association.h"
+#include "tools/session/open_source.h"
 
 namespace sparsight {
 namespace {
@@ -39,6 +40,10 @@ std::optional<fs::path> find_ground_truth(const fs::path& source, int camera) {
   std::error_code error;
   const fs::path folder = fs::canonical(source, error);
   if (error) return std::nullopt;
+  const fs::path beside = fs::path(folder).replace_extension("ground_truth.tum");
+  if (is_recording(folder)) {
+    return fs::is_regular_file(beside, error) ? std::optional(beside) : std::nullopt;
+  }
   const fs::path odometry =
       folder.parent_path().parent_path() / "poses" / (folder.filename().string() + ".txt");
   const fs::path inside = folder / "poses_camera_0.txt";

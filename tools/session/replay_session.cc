@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "drivers/datasets/open_dataset.h"
 #include "tools/session/ground_truth.h"
 #include "tools/session/interrupt.h"
+#include "tools/session/open_source.h"
 #include "tools/session/progress.h"
 #include "tools/session/session_folder.h"
 #include "tools/session/session_recorder.h"
@@ -100,14 +100,17 @@ Result<ReplayResult> replay_session(const ReplayOptions& options) {
   if (auto checked = check_ground_truth(options.ground_truth); !checked) {
     return tl::unexpected(checked.error());
   }
-  auto source = open_dataset(options.source, {.rays = options.rays, .camera = options.camera});
+  auto source = open_source(options.source, {.rays = options.rays, .camera = options.camera});
   if (!source) return tl::unexpected(source.error());
   auto folder = claim_session_folder(options.output, options.source, options.rays);
   if (!folder) return tl::unexpected(folder.error());
 
-  SessionRecorder recorder(*folder, describe(options, (*source)->calibration()), options.map);
+  SessionRecorder recorder(*folder, describe(options, source->frames->calibration()), options.map);
   if (auto begun = recorder.begin(); !begun) return tl::unexpected(begun.error());
-  run(**source, options, recorder);
+  run(*source->frames, options, recorder);
+  for (std::string& remark : source->remarks()) {
+    recorder.session().notes.push_back(std::move(remark));
+  }
   add_ground_truth(recorder.session(), options.ground_truth);
   if (auto written = recorder.write(); !written) return tl::unexpected(written.error());
   auto failure = failure_of(recorder.session());

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "drivers/recording/recording_writer.h"
+#include "tools/configuration/rig_file.h"
 #include "tools/session/interrupt.h"
 
 namespace sparsight {
@@ -34,6 +35,8 @@ class SimulationOutput {
     if (session_.output.empty()) return {};
     RecordingContent content;
     content.calibration = config.calibration;
+    content.attachments.push_back(
+        {kRigConfigurationAttachment, "application/toml", describe(config)});
     content.session["source"] = "simulated";
     content.session["seed"] = fmt::format("{}", session_.options.seed);
     // An hour of work is not at stake: no wait for the disk at each chunk.
@@ -96,7 +99,7 @@ std::string summary(const SimulateSession& session, const Counts& counts, double
 }  // namespace
 
 std::string ground_truth_path(const std::string& recording) {
-  return recording + ".ground_truth.tum";
+  return fs::path(recording).replace_extension("ground_truth.tum").string();
 }
 
 Result<std::string> run_simulation(const SimulateSession& session, Progress::Style style) {

@@ -40,7 +40,8 @@ void add_replay(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "replay", "Replay a recording through the odometry; write trajectory, map and report");
   command
-      ->add_option("SOURCE", options->source, "KITTI odometry sequence or KITTI raw drive folder")
+      ->add_option("SOURCE", options->source,
+                   "recording (.mcap), KITTI odometry sequence or KITTI raw drive folder")
       ->required();
   command->add_option("--rays", options->rays, "keep N of the scan's rings, evenly")
       ->type_name("N")

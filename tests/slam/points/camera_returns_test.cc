@@ -33,7 +33,8 @@ TEST(ReturnsInImage, MovesReturnsIntoTheCameraAndKeepsTheirOrder) {
   // Straight ahead; behind; far to the left; a little up and to the right.
   const Sweep sweep = sweep_of({{10, 0, 0}, {-10, 0, 0}, {1, 20, 0}, {10, -2, 1}});
   const SineRoom room;
-  const auto returns = returns_in_image(sweep, room.camera(), mounted(), Vector6d::Zero());
+  const auto returns =
+      returns_in_image(sweep, room.camera(), mounted(), constant_motion(Vector6d::Zero()));
   ASSERT_EQ(returns.size(), 2U);
   EXPECT_LT((returns[0].p_camera - Eigen::Vector3f(0.1F, -0.2F, 9.7F)).norm(), 1e-6F);
   EXPECT_LT((returns[1].p_camera - Eigen::Vector3f(2.1F, -1.2F, 9.7F)).norm(), 1e-6F);
@@ -49,15 +50,20 @@ TEST(ReturnsInImage, DropsWhatIsNotANumber) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   const Sweep sweep = sweep_of({{nan, 0, 0}, {10, nan, 0}, {10, 0, nan}, {infinity, 0, 0}});
-  EXPECT_TRUE(returns_in_image(sweep, SineRoom().camera(), mounted(), Vector6d::Zero()).empty());
-  EXPECT_TRUE(returns_in_image({}, SineRoom().camera(), mounted(), Vector6d::Zero()).empty());
+  EXPECT_TRUE(
+      returns_in_image(sweep, SineRoom().camera(), mounted(), constant_motion(Vector6d::Zero()))
+          .empty());
+  EXPECT_TRUE(
+      returns_in_image({}, SineRoom().camera(), mounted(), constant_motion(Vector6d::Zero()))
+          .empty());
 }
 
 TEST(ReturnsInImage, LeavesACompensatedSweepWhereItIs) {
   Sweep sweep = sweep_of({{10, 0, 0}});
   sweep.returns[0].from_exposure_ns = 50'000'000;
   const Vector6d twist = Vector6d::Constant(0.5);
-  const auto returns = returns_in_image(sweep, SineRoom().camera(), mounted(), twist);
+  const auto returns =
+      returns_in_image(sweep, SineRoom().camera(), mounted(), constant_motion(twist));
   ASSERT_EQ(returns.size(), 1U);
   EXPECT_LT((returns[0].p_camera - Eigen::Vector3f(0.1F, -0.2F, 9.7F)).norm(), 1e-6F);
 }
@@ -81,7 +87,8 @@ RC_GTEST_PROP(ReturnsInImage, MakesAWallFlatThatWasScannedInConstantMotion, ()) 
                              .from_exposure_ns = static_cast<std::int32_t>(1e9 * seconds),
                              .ring = static_cast<std::uint16_t>(i)});
   }
-  const auto returns = returns_in_image(sweep, SineRoom().camera(), mounted(), twist);
+  const auto returns =
+      returns_in_image(sweep, SineRoom().camera(), mounted(), constant_motion(twist));
   RC_ASSERT(returns.size() > 200U);
   const double half_slot = kPeriod / 512.0 / 2.0;
   for (const CameraReturn& r : returns) {

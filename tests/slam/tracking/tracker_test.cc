@@ -104,9 +104,9 @@ TEST(TrackerElsewhere, ReportsNoPoseFromAnotherPlace) {
   const GreyImage image = here.image(0);
   Keyframe keyframe;
   keyframe.pyramid = ImagePyramid(image, 4);
-  keyframe.points = select_points(
-      returns_in_image(here.sweep(0), camera, here.rig.T_camera_lidar, Vector6d::Zero()), image,
-      camera, {});
+  keyframe.points = select_points(returns_in_image(here.sweep(0), camera, here.rig.T_camera_lidar,
+                                                   constant_motion(Vector6d::Zero())),
+                                  image, camera, {});
   keyframe.mean_inverse_depth = 0.2;
   for (int level = 0; level < 4; ++level) {
     keyframe.patches.push_back(make_patches(keyframe.pyramid, level, camera, keyframe.points, 0.0));
