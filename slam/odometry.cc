@@ -58,7 +58,9 @@ struct Odometry::State {
   double found_share = 0.0;  // of the last tracked frame
   int untracked = 0;         // frames in a row
   // Frames in a row that found little or nothing: their velocity is no ground to refuse another.
-  int hardly_found = 0;
+  // Nor is that of the first frames of all.
+  int hardly_found = kPatientFrames;
+  int well_found = 0;  // of all frames
   // Of the frame last tracked, for add_keyframe.
   ImagePyramid pyramid;
   FrameOutcome outcome;
@@ -95,8 +97,11 @@ FrameOutcome Odometry::State::follow(const SynchronizedFrame& frame) {
     result.tracking.T_keyframe_camera = start.T_keyframe_predicted;
     ++untracked;
   }
-  const bool found = result.tracking.ok() && result.tracking.found_share >= kHardlyFound;
-  hardly_found = found ? 0 : hardly_found + 1;
+  if (result.tracking.ok() && result.tracking.found_share >= kHardlyFound) {
+    if (++well_found >= kPatientFrames) hardly_found = 0;
+  } else {
+    ++hardly_found;
+  }
   result.T_world_camera = keyframe.T_world_camera * result.tracking.T_keyframe_camera;
 
   const bool old = to_seconds(frame.exposure - keyframe.exposure) >= config.keyframes.max_age_s;
@@ -203,8 +208,6 @@ void Odometry::add_keyframe(const SynchronizedFrame& frame) {
   if (s.config.self_calibration.enabled && s.window.teach(s.self_calibration)) s.recalibrate();
   if (s.window.full()) s.retire_oldest();
   s.motion.rebase(frame.exposure);
-  // A keyframe for want of tracking stands where it was guessed: the guess is not to be defended.
-  if (s.untracked > 0) s.motion.forget_velocity();
   s.untracked = 0;
   s.brightness = {};
 }

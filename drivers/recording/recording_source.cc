@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMaxHeldEvents = 4096;
 constexpr std::size_t kMaxHeldBytes = std::size_t{128} << 20;
 
-HostTime host_time(std::uint64_t log_time) {
+HostTime on_host_clock(std::uint64_t log_time) {
   constexpr std::uint64_t kLast = std::numeric_limits<std::int64_t>::max();
   return HostTime(std::chrono::nanoseconds(static_cast<std::int64_t>(std::min(log_time, kLast))));
 }
@@ -63,8 +63,8 @@ void RecordingSource::describe(const std::string& name) {
   const McapSummary& summary = reader_->summary();
   info_.file = name;
   info_.bytes = reader_->file_size();
-  info_.first = host_time(summary.statistics.start_time);
-  info_.last = host_time(summary.statistics.end_time);
+  info_.first = on_host_clock(summary.statistics.start_time);
+  info_.last = on_host_clock(summary.statistics.end_time);
   info_.indexed = summary.indexed;
   info_.truncated = !summary.ended;
   for (const auto& [id, count] : summary.statistics.channel_message_counts) {

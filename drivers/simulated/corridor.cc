@@ -1,10 +1,11 @@
+#include "drivers/simulated/corridor.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "drivers/simulated/palette.h"
 #include "drivers/simulated/scene_builder.h"
-#include "drivers/simulated/scenes.h"
 
 namespace sparsight::simulated {
 namespace {

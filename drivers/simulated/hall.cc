@@ -1,18 +1,19 @@
+#include "drivers/simulated/hall.h"
+
 #include <array>
 #include <cmath>
 
 #include "drivers/simulated/palette.h"
 #include "drivers/simulated/scene_builder.h"
-#include "drivers/simulated/scenes.h"
 
 namespace sparsight::simulated {
 namespace {
 
 using Eigen::Vector3f;
 
-constexpr float kHalfLength = 13.0F;
+constexpr float kHallHalfLength = 13.0F;
 constexpr float kHalfBreadth = 9.0F;
-constexpr float kHeight = 6.4F;
+constexpr float kHallHeight = 6.4F;
 constexpr float kBrickHeight = 1.4F;
 constexpr float kQuarterTurn = static_cast<float>(M_PI) / 2.0F;
 
@@ -43,7 +44,7 @@ class HallBuilder {
     }
     table({-3.0F, -1.9F, 0.0F}, 0.2F);
     table({3.4F, 1.8F, 0.0F}, -0.1F);
-    for (const float y : {-3.2F, 0.5F, 3.4F}) stack({-kHalfLength + 0.9F, y, 0.0F});
+    for (const float y : {-3.2F, 0.5F, 3.4F}) stack({-kHallHalfLength + 0.9F, y, 0.0F});
   }
 
  private:
@@ -51,7 +52,7 @@ class HallBuilder {
     const Vector3f in(-along.y(), along.x(), 0.0F);
     build_.panel(corner, length * along, {0, 0, kBrickHeight}, brick);
     build_.panel(corner + Vector3f(0, 0, kBrickHeight), length * along,
-                 {0, 0, kHeight - kBrickHeight}, upper);
+                 {0, 0, kHallHeight - kBrickHeight}, upper);
     const float yaw = std::atan2(along.y(), along.x());
     const auto at = [&](float x, float z, float out) -> Vector3f {
       return corner + x * along + Vector3f(0, 0, z) - out * in;
@@ -63,7 +64,7 @@ class HallBuilder {
                  {size.x() + 0.16F, 0.12F, size.y() + 0.12F}, yaw, steel_);
       build_.panel(at(x, 4.3F, 0.065F), size.x() * along, {0, 0, size.y()}, window_);
       if (random_.chance(0.55)) banner(at(x + random_.uniform_f(0.0, 1.2), 1.9F, 0.02F), along);
-      build_.column(at(x - 0.9F, 0.0F, 0.12F), 0.055F, kHeight, 8, steel_);
+      build_.column(at(x - 0.9F, 0.0F, 0.12F), 0.055F, kHallHeight, 8, steel_);
     }
   }
 
@@ -73,7 +74,7 @@ class HallBuilder {
   }
 
   void shell() {
-    const float a = kHalfLength;
+    const float a = kHallHalfLength;
     const float b = kHalfBreadth;
     window_ = palette_.window(0.9F);
     const int brick = palette_.bricks();
@@ -100,24 +101,25 @@ class HallBuilder {
   void roof() {
     const int sheet = palette_.slats(0.5F);
     const int lamp = palette_.lamp(26.0F);
-    build_.panel({-kHalfLength, kHalfBreadth, kHeight}, {2 * kHalfLength, 0, 0},
+    build_.panel({-kHallHalfLength, kHalfBreadth, kHallHeight}, {2 * kHallHalfLength, 0, 0},
                  {0, -2 * kHalfBreadth, 0}, sheet);
-    for (float x = -10.4F; x < kHalfLength; x += 5.2F) {
-      build_.box({x, 0, kHeight - 0.35F}, {0.18F, 2 * kHalfBreadth, 0.35F}, 0.0F, steel_);
+    for (float x = -10.4F; x < kHallHalfLength; x += 5.2F) {
+      build_.box({x, 0, kHallHeight - 0.35F}, {0.18F, 2 * kHalfBreadth, 0.35F}, 0.0F, steel_);
       for (const float y : {-6.0F, 0.0F, 6.0F}) {
         const Vector3f at(x + 2.6F, y, 5.5F);
-        if (at.x() > kHalfLength - 1.0F) continue;
+        if (at.x() > kHallHalfLength - 1.0F) continue;
         build_.box(at, {1.5F, 0.4F, 0.12F}, 0.0F, steel_);
         build_.panel(at + Vector3f(-0.7F, 0.16F, -0.01F), {1.4F, 0, 0}, {0, -0.32F, 0}, lamp);
       }
     }
     for (const float y : {-3.0F, 3.0F}) {
-      build_.roller({-kHalfLength, y, 5.9F}, {kHalfLength, y, 5.9F}, 0.16F, 12, steel_, steel_);
+      build_.roller({-kHallHalfLength, y, 5.9F}, {kHallHalfLength, y, 5.9F}, 0.16F, 12, steel_,
+                    steel_);
     }
   }
 
   void pillar(const Vector3f& foot) {
-    build_.column(foot, 0.26F, kHeight, 16, concrete_);
+    build_.column(foot, 0.26F, kHallHeight, 16, concrete_);
     build_.column(foot, 0.265F, 1.1F, 16, random_.chance(0.5) ? paint_ : steel_, 0.265F);
     if (random_.chance(0.6)) {
       const Eigen::Vector2f size(0.36F, 0.36F);

@@ -1,5 +1,9 @@
 #include "drivers/simulated/scenes.h"
 
+#include "drivers/simulated/corridor.h"
+#include "drivers/simulated/hall.h"
+#include "drivers/simulated/street.h"
+
 namespace sparsight::simulated {
 namespace {
 

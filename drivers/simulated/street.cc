@@ -1,16 +1,17 @@
+#include "drivers/simulated/street.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "drivers/simulated/palette.h"
 #include "drivers/simulated/scene_builder.h"
-#include "drivers/simulated/scenes.h"
 
 namespace sparsight::simulated {
 namespace {
 
 using Eigen::Vector3f;
 
-constexpr float kHalfLength = 42.0F;
+constexpr float kStreetHalfLength = 42.0F;
 constexpr float kFacade = 8.2F;  // from the middle of the road
 constexpr float kKerb = 4.2F;
 constexpr float kKerbHeight = 0.12F;
@@ -58,8 +59,8 @@ class StreetBuilder {
   void build() {
     ground();
     for (const float side : {-1.0F, 1.0F}) {
-      row({-side * kHalfLength, side * kFacade, 0}, {side, 0, 0}, 2 * kHalfLength);
-      row({side * kHalfLength, side * kFacade, 0}, {0, -side, 0}, 2 * kFacade);
+      row({-side * kStreetHalfLength, side * kFacade, 0}, {side, 0, 0}, 2 * kStreetHalfLength);
+      row({side * kStreetHalfLength, side * kFacade, 0}, {0, -side, 0}, 2 * kFacade);
       furniture(side);
       cars(side);
     }
@@ -71,7 +72,7 @@ class StreetBuilder {
     const int paving = palette_.paving();
     const int kerb = palette_.plain(0.5F, 0.15F, 0.15F, 40);
     const int paint = palette_.plain(0.75F, 0.15F, 0.12F, 95);
-    const float a = kHalfLength;
+    const float a = kStreetHalfLength;
     build_.panel({-a, -kKerb, 0}, {2 * a, 0, 0}, {0, 2 * kKerb, 0}, road);
     const float width = kFacade - kKerb;
     build_.panel({-a, kKerb, kKerbHeight}, {2 * a, 0, 0}, {0, width, 0}, paving);

@@ -10,7 +10,7 @@ PcapLidar::PcapLidar(std::filesystem::path file, const LidarConfig& config)
     : file_(std::move(file)), data_port_(config.data_port), position_port_(config.position_port) {}
 
 Result<void> PcapLidar::start() {
-  stop();
+  if (state_ != DeviceState::kStopped) return {};
   auto reader = PcapReader::open(file_);
   if (!reader) return tl::make_unexpected(std::move(reader.error()));
   reader_.emplace(std::move(*reader));

@@ -28,7 +28,7 @@ UdpLidar::UdpLidar(const LidarConfig& config, const UdpLidarOptions& options)
 }
 
 Result<void> UdpLidar::start() {
-  stop();
+  if (state_ != DeviceState::kStopped) return {};
   if (auto opened = open(); !opened) {
     stop();
     return opened;

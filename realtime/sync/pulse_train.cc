@@ -19,7 +19,7 @@ constexpr double kLeastSigmaNs = 1'000.0;
 constexpr int kStrange = 2;
 constexpr int kEstranged = 6;
 
-double ns(nanoseconds duration) { return static_cast<double>(duration.count()); }
+double count_of(nanoseconds duration) { return static_cast<double>(duration.count()); }
 nanoseconds rounded(double ns) { return nanoseconds(std::llround(ns)); }
 
 }  // namespace
@@ -51,7 +51,7 @@ void PulseTrain::add(HostTime time, nanoseconds length, bool doubtful) {
   }
   const auto index = static_cast<std::int64_t>(std::llround(index_at(time)));
   const nanoseconds off = time - place_of(index).time;
-  const bool in_place = std::abs(ns(off)) < config_.place * period_ns_;
+  const bool in_place = std::abs(count_of(off)) < config_.place * period_ns_;
   if (index - last_index_ > config_.max_gap) return forget();
   if (in_place && index > last_index_) {
     return take({.index = index, .time = time, .length = length, .doubtful = doubtful, .off = off});
@@ -70,19 +70,19 @@ void PulseTrain::forget() {
   strangeness_ = 0;
   // Of what came before a pause nothing is left to learn from.
   std::erase_if(lately_, [&](const Sighting& s) {
-    return ns(*newest_ - s.time) > static_cast<double>(config_.max_gap) * period_ns_;
+    return count_of(*newest_ - s.time) > static_cast<double>(config_.max_gap) * period_ns_;
   });
   learn();
 }
 
 void PulseTrain::learn() {
   if (lately_.size() <= config_.intervals_to_learn) return;
-  const double mean = ns(lately_.back().time - lately_.front().time) /
+  const double mean = count_of(lately_.back().time - lately_.front().time) /
                       static_cast<double>(config_.intervals_to_learn);
   for (std::size_t i = 0; i < lately_.size(); ++i) {
-    if (ns(lately_[i].length) >= mean) return;
+    if (count_of(lately_[i].length) >= mean) return;
     const double place = static_cast<double>(i) * mean;
-    if (std::abs(ns(lately_[i].time - lately_[0].time) - place) > kAgreement * mean) return;
+    if (std::abs(count_of(lately_[i].time - lately_[0].time) - place) > kAgreement * mean) return;
   }
   regular_ = true;
   ++generation_;
@@ -90,7 +90,7 @@ void PulseTrain::learn() {
     const Sighting& seen = lately_[i];
     last_index_ = static_cast<std::int64_t>(i);
     // The first may itself be the second of two at one place.
-    const bool doubtful = ns(seen.since_previous) < kCrowded * mean;
+    const bool doubtful = count_of(seen.since_previous) < kCrowded * mean;
     recent_[i] =
         Pulse{.index = last_index_, .time = seen.time, .length = seen.length, .doubtful = doubtful};
     if (!doubtful) samples_.push_back({last_index_, seen.time});
@@ -104,11 +104,11 @@ void PulseTrain::take(Pulse pulse) {
   // Only now that the next has come is it sure that nothing was wrong with the last one.
   if (const auto last = find(last_index_); last && !last->doubtful) length_ = last->length;
   last_index_ = pulse.index;
-  const bool off = std::abs(ns(pulse.off)) > std::max(kSigmasOff * sigma_ns_, kLeastOffNs);
+  const bool off = std::abs(count_of(pulse.off)) > std::max(kSigmasOff * sigma_ns_, kLeastOffNs);
   // A train whose pulses are all off has moved.
   if (off && !pulse.doubtful && estranged(pulse.time)) return forget();
   // Two that run into one another have lost what was between them.
-  pulse.doubtful |= off || ns(pulse.length) >= period_ns_;
+  pulse.doubtful |= off || count_of(pulse.length) >= period_ns_;
   recent_[static_cast<std::size_t>(pulse.index) % recent_.size()] = pulse;
   if (pulse.doubtful) return;
   strangeness_ = std::max(0, strangeness_ - 1);
@@ -137,7 +137,7 @@ void PulseTrain::fit() {
   double sum_time = 0.0;
   for (const Sample& s : samples_) {
     sum_index += static_cast<double>(s.index - first.index);
-    sum_time += ns(s.time - first.time);
+    sum_time += count_of(s.time - first.time);
   }
   const double middle = sum_index / n;
   index_scatter_ = 0.0;
@@ -145,7 +145,7 @@ void PulseTrain::fit() {
   for (const Sample& s : samples_) {
     const double x = static_cast<double>(s.index - first.index) - middle;
     index_scatter_ += x * x;
-    product += x * (ns(s.time - first.time) - sum_time / n);
+    product += x * (count_of(s.time - first.time) - sum_time / n);
   }
   period_ns_ = product / index_scatter_;
   mean_index_ = static_cast<double>(first.index) + middle;
@@ -153,13 +153,13 @@ void PulseTrain::fit() {
   double squares = 0.0;
   for (const Sample& s : samples_) {
     const double expected = period_ns_ * (static_cast<double>(s.index) - mean_index_);
-    squares += std::pow(ns(s.time - mean_time_) - expected, 2);
+    squares += std::pow(count_of(s.time - mean_time_) - expected, 2);
   }
   sigma_ns_ = std::max(kLeastSigmaNs, std::sqrt(squares / std::max(1.0, n - 2.0)));
 }
 
 double PulseTrain::index_at(HostTime time) const {
-  return mean_index_ + ns(time - mean_time_) / period_ns_;
+  return mean_index_ + count_of(time - mean_time_) / period_ns_;
 }
 
 PulsePlace PulseTrain::place_of(std::int64_t index) const {
@@ -182,7 +182,7 @@ bool PulseTrain::disputed(std::int64_t index) const {
   const HostTime place = place_of(index).time;
   const auto known = std::min(stranger_count_, strangers_.size());
   return std::any_of(strangers_.begin(), strangers_.begin() + known, [&](HostTime stranger) {
-    return std::abs(ns(stranger - place)) < 0.5 * period_ns_;
+    return std::abs(count_of(stranger - place)) < 0.5 * period_ns_;
   });
 }
 

@@ -63,7 +63,7 @@ Eigen::RowVector2d gradient(const Linearization& l, std::size_t i, const CameraM
 SelfCalibration::SelfCalibration(const CameraIntrinsics& given, const SelfCalibrationConfig& config)
     : given_(given),
       sigma_(config.focal_sigma, config.k1_sigma),
-      information_share_(config.information_share),
+      believed_share_(config.believed_share),
       camera_(given),
       H_(sigma_.array().square().inverse().matrix().asDiagonal()) {}
 
@@ -109,7 +109,7 @@ void SelfCalibration::observe(const Keyframe& host, const Alignment& at,
       H.bottomRightCorner<2, 2>() - C.transpose() * nuisance.solve(C);
   const Parameters gradient =
       b.tail<2>().transpose() - C.transpose() * nuisance.solve(b.head<kNuisance>().transpose());
-  const double share = information_share_ / variance;
+  const double share = believed_share_ / variance;
   H_ += share * information;
   b_ += share * (information * in_force_ - gradient);
 }

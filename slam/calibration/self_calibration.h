@@ -13,9 +13,9 @@ struct SelfCalibrationConfig {
   // What is believed of the given calibration, one sigma; three are never exceeded.
   double focal_sigma = 0.003;  // of fx and fy, relative
   double k1_sigma = 0.01;      // of the first radial coefficient
-  // Share of the information that is believed: neighbouring pixels, and keyframes that show the
-  // same places, do not err independently.
-  double information_share = 0.02;
+  // Share of what the residuals tell that is believed: neighbouring pixels, and keyframes that show
+  // the same places, do not err independently.
+  double believed_share = 0.02;
 };
 
 // Focal length and radial distortion as the images themselves show them. Rectified images keep a
@@ -45,7 +45,7 @@ class SelfCalibration {
 
   CameraIntrinsics given_;
   Parameters sigma_;
-  double information_share_;
+  double believed_share_;
   Parameters in_force_ = Parameters::Zero();
   CameraModel camera_;
   Eigen::Matrix2d H_;  // information on the parameters, the belief in the given ones included

@@ -16,8 +16,6 @@ class MotionModel {
   void observe(HostTime exposure, const Eigen::Isometry3d& T_keyframe_camera);
   // The frame at `exposure` is the keyframe from now on, whether or not it was observed.
   void rebase(HostTime exposure);
-  // Forgets the velocity: what was observed is not to be continued.
-  void forget_velocity() { twist_.reset(); }
 
   // Camera-frame velocity [rad/s, m/s]; nothing before two frames were observed.
   const std::optional<Vector6d>& twist() const { return twist_; }

@@ -66,7 +66,7 @@ void visit_fields(Visitor& profile, SelfCalibrationConfig& calibration) {
   profile.field("enabled", calibration.enabled);
   profile.field("focal_sigma", calibration.focal_sigma, {1e-6, 1.0});
   profile.field("k1_sigma", calibration.k1_sigma, {1e-6, 1.0});
-  profile.field("information_share", calibration.information_share, {1e-9, 1.0});
+  profile.field("believed_share", calibration.believed_share, {1e-9, 1.0});
 }
 
 template <typename Visitor>

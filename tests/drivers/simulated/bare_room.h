@@ -58,7 +58,7 @@ struct SimulatedEvents {
   std::vector<DeviceStateChange> changes;
 };
 
-inline SimulatedEvents all_events(RigEventSource& rig) {
+inline SimulatedEvents gather_events(RigEventSource& rig) {
   SimulatedEvents events;
   while (std::optional<RigEvent> event = rig.next()) {
     if (const auto* frame = std::get_if<std::shared_ptr<const CameraFrame>>(&*event)) {
@@ -79,7 +79,7 @@ inline SimulatedEvents all_events(RigEventSource& rig) {
 
 inline SimulatedEvents events_in_bare_room(const SimulationOptions& options) {
   SimulatedRig rig(options, bare_room());
-  return all_events(rig);
+  return gather_events(rig);
 }
 
 }  // namespace sparsight::testing

@@ -155,7 +155,7 @@ TEST(SimulatedRig, ShowsInTheImageWhatTheLidarMeasures) {
 TEST(SimulatedRig, MarksEveryExposureWithTwoEdges) {
   SimulatedRig rig(small_options(), bare_room());
   const std::vector<HostTime> exposures = rig.ground_truth().exposures();
-  const SimulatedEvents events = all_events(rig);
+  const SimulatedEvents events = gather_events(rig);
   ASSERT_EQ(events.exposure_edges.size(), 2 * exposures.size());
   ASSERT_EQ(events.frames.size(), exposures.size());
   for (std::size_t i = 0; i < exposures.size(); ++i) {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "drivers/simulated/scenes.h"
+#include "drivers/simulated/corridor.h"
 
 namespace sparsight::simulated {
 namespace {

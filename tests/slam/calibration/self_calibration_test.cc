@@ -10,7 +10,7 @@ namespace sparsight {
 namespace {
 
 constexpr SelfCalibrationConfig kOpenMinded{
-    .enabled = true, .focal_sigma = 0.02, .k1_sigma = 0.05, .information_share = 0.2};
+    .enabled = true, .focal_sigma = 0.02, .k1_sigma = 0.05, .believed_share = 0.2};
 
 // A walk that also turns: a turn is what shows the focal length.
 Eigen::Isometry3d step_of_walk(int i) {
@@ -75,7 +75,7 @@ TEST(SelfCalibration, NeverGoesBeyondThreeSigma) {
   given.k1 = 0.0;
   SelfCalibrationConfig sure = kOpenMinded;
   sure.k1_sigma = 0.005;
-  sure.information_share = 1.0;
+  sure.believed_share = 1.0;
   SelfCalibration calibration(given, sure);
   walk(real, 20, calibration);
   EXPECT_LE(calibration.camera().intrinsics().k1, 0.015 + 1e-9);
