@@ -58,9 +58,7 @@ struct Odometry::State {
   double found_share = 0.0;  // of the last tracked frame
   int untracked = 0;         // frames in a row
   // Frames in a row that found little or nothing: their velocity is no ground to refuse another.
-  // Nor is that of the first frames of all.
-  int hardly_found = kPatientFrames;
-  int well_found = 0;  // of all frames
+  int hardly_found = 0;
   // Of the frame last tracked, for add_keyframe.
   ImagePyramid pyramid;
   FrameOutcome outcome;
@@ -97,11 +95,8 @@ FrameOutcome Odometry::State::follow(const SynchronizedFrame& frame) {
     result.tracking.T_keyframe_camera = start.T_keyframe_predicted;
     ++untracked;
   }
-  if (result.tracking.ok() && result.tracking.found_share >= kHardlyFound) {
-    if (++well_found >= kPatientFrames) hardly_found = 0;
-  } else {
-    ++hardly_found;
-  }
+  const bool found = result.tracking.ok() && result.tracking.found_share >= kHardlyFound;
+  hardly_found = found ? 0 : hardly_found + 1;
   result.T_world_camera = keyframe.T_world_camera * result.tracking.T_keyframe_camera;
 
   const bool old = to_seconds(frame.exposure - keyframe.exposure) >= config.keyframes.max_age_s;

@@ -5,6 +5,8 @@
 
 #include "drivers/gpio/gpio_trigger_line.h"
 #include "drivers/v4l2/v4l2_camera.h"
+#include "drivers/vlp16/udp_lidar.h"
+#include "drivers/vlp16/vlp16_decoder.h"
 #include "tools/doctor/camera_checks.h"
 #include "tools/doctor/disk_checks.h"
 #include "tools/doctor/host_checks.h"
@@ -29,6 +31,8 @@ std::future<std::vector<Check>> at_the_same_time(Function function) {
 RigDevices live_devices(const RigConfig& rig) {
   RigDevices devices;
   devices.camera = std::make_unique<V4l2Camera>(rig.camera);
+  devices.lidar = std::make_unique<UdpLidar>(rig.lidar);
+  devices.decoder = std::make_unique<Vlp16Decoder>(rig.lidar);
   devices.trigger = std::make_unique<GpioTriggerLine>(rig.trigger);
   return devices;
 }

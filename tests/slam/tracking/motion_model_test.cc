@@ -71,14 +71,35 @@ TEST(MotionModel, KeepsItsVelocityWhereTimeDoesNotAdvance) {
   EXPECT_TRUE(model.predict_in_keyframe(at(0.05)).matrix().allFinite());
 }
 
-TEST(MotionModel, CanForgetItsVelocity) {
+// What moves the LiDAR's returns: not one velocity for all, where it is known better.
+TEST(MotionModel, RemembersWhereTheCameraWasBetweenFrames) {
+  Vector6d there;
+  there << 0.0, 0.4, 0.0, 0.0, 0.0, 1.0;
+  Vector6d back;
+  back << 0.0, -0.4, 0.0, 0.0, 0.0, 1.0;
   MotionModel model;
   model.observe(at(0.0), Eigen::Isometry3d::Identity());
-  const Eigen::Isometry3d T = exp_se3(Vector6d::Constant(0.1));
-  model.observe(at(0.1), T);
-  model.forget_velocity();
-  EXPECT_FALSE(model.twist().has_value());
-  EXPECT_EQ(distance(model.predict_in_keyframe(at(0.2)), T), 0.0);
+  const Eigen::Isometry3d T_turn = exp_se3(there * 0.1);
+  model.observe(at(0.1), T_turn);
+  model.observe(at(0.2), T_turn * exp_se3(back * 0.1));
+  EXPECT_LT(distance(model.at(at(0.05)), exp_se3(there * 0.05)), 1e-9);
+  EXPECT_LT(distance(model.at(at(0.15)), T_turn * exp_se3(back * 0.05)), 1e-9);
+  EXPECT_LT(distance(model.at(at(0.25)), T_turn * exp_se3(back * 0.15)), 1e-9) << "goes on";
+
+  const Eigen::Isometry3d T_between = model.at(at(0.15)).inverse() * model.at(at(0.05));
+  model.rebase(at(0.2));
+  EXPECT_LT(distance(model.at(at(0.2)), Eigen::Isometry3d::Identity()), 1e-9);
+  EXPECT_LT(distance(model.at(at(0.15)).inverse() * model.at(at(0.05)), T_between), 1e-9)
+      << "the same motion seen from the new keyframe";
+}
+
+TEST(MotionModel, RemembersNoMoreThanARevolutionNeeds) {
+  MotionModel model;
+  Vector6d twist;
+  twist << 0.0, 0.1, 0.0, 0.5, 0.0, 1.0;
+  for (int i = 0; i < 100; ++i) model.observe(at(0.1 * i), exp_se3(twist * 0.1 * i));
+  EXPECT_LT(distance(model.at(at(9.33)), exp_se3(twist * 9.33)), 1e-6);
+  EXPECT_TRUE(model.at(at(0.0)).matrix().allFinite());
 }
 
 }  // namespace
