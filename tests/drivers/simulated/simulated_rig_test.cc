@@ -15,7 +15,7 @@
 namespace sparsight {
 namespace {
 
-using testing::all_events;
+using testing::gather_events;
 using testing::bare_room;
 using testing::events_in_bare_room;
 using testing::SimulatedEvents;
