@@ -53,7 +53,8 @@ class CaptureFile {
  public:
   CaptureFile()
       : path_(std::filesystem::temp_directory_path() /
-              ("sparsight_lidar_contract_" + std::to_string(getpid()) + ".pcap")) {
+              ("sparsight_lidar_contract_" + std::to_string(getpid()) + "_" +
+               std::to_string(count_++) + ".pcap")) {
     testing::MadeCapture capture;
     for (int i = 0; i < kDataPackets; ++i) {
       add(capture, i, 2368, data_of(i));
@@ -75,6 +76,7 @@ class CaptureFile {
     capture.add(1, static_cast<std::uint32_t>(i) * kPacketMicroseconds,
                 testing::frame_of({.port = port, .payload = {payload.begin(), payload.end()}}));
   }
+  static inline int count_ = 0;  // several may be open at once
   std::filesystem::path path_;
 };
 

@@ -63,7 +63,7 @@ TEST(McapReader, NeverAltersAnEventWhateverByteIsDamaged) {
     Buffer damaged = bytes;
     // As often among the short records around the chunks as in their bulk.
     const bool anywhere = i % 2 == 0;
-    const auto& chunk = summary_of(bytes).chunks[1];
+    const mcap::ChunkIndex chunk = summary_of(bytes).chunks[1];
     const std::size_t at = anywhere ? start + random() % (bytes.size() - start)
                                     : chunk.offset + chunk.length - 10 + random() % 60;
     damaged[at] ^= static_cast<std::uint8_t>(1 + random() % 255);

@@ -122,8 +122,9 @@ class PacedLidar final : public Lidar {
   PacedLidar(HostTime& clock, double per_second) : clock_(clock), per_second_(per_second) {}
   Result<void> start() override { return {}; }
   std::optional<LidarMessage> read(std::chrono::nanoseconds patience) override {
-    const std::chrono::nanoseconds step(static_cast<std::int64_t>(1e9 / per_second_));
-    if (per_second_ <= 0.0 || step > patience) {
+    const bool speaks = per_second_ > 0.0;
+    const std::chrono::nanoseconds step(static_cast<std::int64_t>(speaks ? 1e9 / per_second_ : 0));
+    if (!speaks || step > patience) {
       clock_ += patience;
       return std::nullopt;
     }
