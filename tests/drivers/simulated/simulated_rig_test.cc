@@ -15,9 +15,9 @@
 namespace sparsight {
 namespace {
 
-using testing::gather_events;
 using testing::bare_room;
 using testing::events_in_bare_room;
+using testing::gather_events;
 using testing::SimulatedEvents;
 using testing::small_options;
 
