@@ -23,9 +23,9 @@ Eigen::Vector2d project(const CameraIntrinsics& camera, const Eigen::Vector2d& o
 Eigen::Vector2d unproject(const CameraIntrinsics& camera, const Eigen::Vector2d& pixel) {
   const Eigen::Vector2d seen((pixel.x() - camera.cx) / camera.fx,
                              (pixel.y() - camera.cy) / camera.fy);
-  if (!camera.distorted()) return seen;
-  // The distortion is a contraction for lenses like ours: its fixed point is found in few steps.
   Eigen::Vector2d ideal = seen;
+  if (!camera.distorted()) return ideal;
+  // The distortion is a contraction for lenses like ours: its fixed point is found in few steps.
   for (int i = 0; i < 30; ++i) {
     const Eigen::Vector2d missing = seen - distorted(camera, ideal);
     ideal += missing;
