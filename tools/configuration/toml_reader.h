@@ -61,6 +61,7 @@ class TomlReader {
       return;
     }
     std::vector<std::string_view> allowed;
+    allowed.reserve(names.size());
     for (const auto& name : names) allowed.push_back(name.first);
     refuse_choice(key, *node, allowed);
   }
