@@ -34,7 +34,7 @@ LidarUnderTest on_the_network() {
   LidarConfig config;
   config.sensor_address = config.bind_address = "127.0.0.1";
   config.data_port = config.position_port = 0;  // any free one
-  auto lidar = std::make_unique<UdpLidar>(config, UdpLidarOptions{.silent_after = 20ms});
+  auto lidar = std::make_unique<UdpLidar>(config, UdpLidarOptions{.silent_after = 500ms});
   auto sender = std::make_shared<testing::LoopbackSender>();
   LidarUnderTest test;
   test.world = sender;

@@ -61,7 +61,7 @@ TEST(RealtimeBridge, ReadsBothClocksAsOne) {
   const ClockPair second = read_clocks();
   const auto apart = (second.realtime - first.realtime) - (second.monotonic - first.monotonic);
   EXPECT_GE(second.monotonic, first.monotonic);
-  EXPECT_LT(std::chrono::abs(apart), 1ms);
+  EXPECT_LT(std::chrono::abs(apart), 20ms);
 }
 
 }  // namespace

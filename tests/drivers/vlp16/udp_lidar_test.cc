@@ -77,12 +77,16 @@ TEST_F(UdpLidarOnLoopback, ArrivalIsTheKernelsStampNotTheTimeOfReading) {
   UdpLidar lidar(loopback());
   ASSERT_TRUE(lidar.start());
   const Sender sensor;
+  // The kernel begins to stamp some milliseconds after it is asked to.
+  sensor.send(lidar.data_port(), numbered(0));
+  ASSERT_TRUE(lidar.read(1s));
+  usleep(100'000);
   sensor.send(lidar.data_port(), numbered(1));
   const HostTime sent = read_clocks().monotonic;
-  usleep(50'000);
+  usleep(400'000);
   const auto message = lidar.read(1s);
   ASSERT_TRUE(message);
-  EXPECT_LT(std::get<LidarPacket>(*message).arrival, sent + 25ms);
+  EXPECT_LT(std::get<LidarPacket>(*message).arrival, sent + 200ms);
 }
 
 TEST_F(UdpLidarOnLoopback, TakesManyInTheirOrder) {
@@ -142,7 +146,7 @@ TEST_F(UdpLidarOnLoopback, RefusesEveryOtherSize) {
 }
 
 TEST_F(UdpLidarOnLoopback, GoesSilentAndComesBack) {
-  UdpLidar lidar(loopback(), {.silent_after = 30ms});
+  UdpLidar lidar(loopback(), {.silent_after = 400ms});
   EXPECT_EQ(lidar.state(), DeviceState::kStopped);
   EXPECT_FALSE(lidar.read(0s));
   ASSERT_TRUE(lidar.start());
@@ -153,7 +157,7 @@ TEST_F(UdpLidarOnLoopback, GoesSilentAndComesBack) {
   EXPECT_EQ(lidar.state(), DeviceState::kStreaming);
   EXPECT_FALSE(lidar.read(1ms));
   EXPECT_EQ(lidar.state(), DeviceState::kStreaming) << "a gap is not silence";
-  EXPECT_FALSE(lidar.read(50ms));
+  EXPECT_FALSE(lidar.read(500ms));
   EXPECT_EQ(lidar.state(), DeviceState::kSilent);
   sensor.send(lidar.position_port(), write_position_packet(0, PpsState::kLocked, ""));
   EXPECT_TRUE(lidar.read(1s));
