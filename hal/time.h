@@ -12,6 +12,10 @@ struct HostClock {
   using period = duration::period;
   using time_point = std::chrono::time_point<HostClock>;
   static constexpr bool is_steady = true;
+  // libstdc++ reads CLOCK_MONOTONIC for its steady clock.
+  static time_point now() {
+    return time_point(std::chrono::steady_clock::now().time_since_epoch());
+  }
 };
 
 // The LiDAR's own clock. Subtracting one clock's time from the other's does not compile.

@@ -79,11 +79,7 @@ class LibgpiodCalls final : public GpioCalls {
     }
   }
 
-  HostTime now() override {
-    timespec time{};
-    ::clock_gettime(CLOCK_MONOTONIC, &time);
-    return host_time(time);
-  }
+  HostTime now() override { return HostClock::now(); }
 
  private:
   // The line's file descriptor is its handle.

@@ -13,12 +13,6 @@
 namespace sparsight {
 namespace {
 
-std::chrono::nanoseconds clock_reading(clockid_t clock) {
-  timespec time{};
-  ::clock_gettime(clock, &time);
-  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
-}
-
 tl::unexpected<Error> system_failure(const std::string& what) {
   return fail(ErrorCode::kUnreadable,
               fmt::format("{}: {}", what, std::generic_category().message(errno)));
@@ -74,9 +68,9 @@ class LinuxPpsPort final : public PpsPort {
     }
   }
 
-  HostTime now() override { return HostTime(clock_reading(CLOCK_MONOTONIC)); }
+  HostTime now() override { return HostClock::now(); }
   std::chrono::sys_time<std::chrono::nanoseconds> utc_now() override {
-    return std::chrono::sys_time<std::chrono::nanoseconds>(clock_reading(CLOCK_REALTIME));
+    return std::chrono::system_clock::now();
   }
 
  private:

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <utility>
 
 #include "drivers/recording/camera_messages.h"
@@ -20,16 +19,10 @@ std::uint64_t log_time(HostTime time) {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(time.time_since_epoch().count(), 0));
 }
 
-std::chrono::nanoseconds read_clock(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec);
-}
-
 }  // namespace
 
 std::chrono::nanoseconds current_utc_offset() {
-  return read_clock(CLOCK_REALTIME) - read_clock(CLOCK_MONOTONIC);
+  return std::chrono::system_clock::now().time_since_epoch() - HostClock::now().time_since_epoch();
 }
 
 Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::filesystem::path& path,

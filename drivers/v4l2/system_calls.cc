@@ -61,11 +61,7 @@ class LinuxCalls final : public SystemCalls {
     }
   }
 
-  HostTime now() override {
-    timespec time{};
-    ::clock_gettime(CLOCK_MONOTONIC, &time);
-    return HostTime(std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec));
-  }
+  HostTime now() override { return HostClock::now(); }
 };
 
 }  // namespace

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <string>
@@ -21,19 +20,13 @@
 //   }, DeviceNature::kReplayed});
 namespace sparsight::contract {
 
-inline HostTime monotonic_now() {
-  timespec time{};
-  ::clock_gettime(CLOCK_MONOTONIC, &time);
-  return HostTime(std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec));
-}
-
 // Delivers some data (ten at least, thousands at most) and then no more.
 template <typename Device>
 struct DeviceUnderTest {
   std::shared_ptr<void> world;  // what the device stands on and outlives it: a fake, a folder
   std::unique_ptr<Device> device;
   std::function<void()> feed = [] {};  // called after a start: sends what the device receives
-  std::function<HostTime()> now = monotonic_now;  // the clock that its patience goes by
+  std::function<HostTime()> now = HostClock::now;  // the clock that its patience goes by
 };
 
 enum class DeviceNature : std::uint8_t {

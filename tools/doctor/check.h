@@ -25,6 +25,4 @@ struct Check {
 
 using Now = std::function<HostTime()>;
 
-HostTime monotonic_now();
-
 }  // namespace sparsight

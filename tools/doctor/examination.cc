@@ -43,18 +43,18 @@ std::vector<Check> examine(RigDevices& devices, const RigConfig& rig,
   const auto duration = examination.duration;
   if (devices.camera) {
     running.push_back(at_the_same_time([&] {
-      return camera_checks(observe_camera(*devices.camera, duration, monotonic_now), rig.camera);
+      return camera_checks(observe_camera(*devices.camera, duration, HostClock::now), rig.camera);
     }));
   }
   if (devices.lidar && devices.decoder) {
     running.push_back(at_the_same_time([&] {
-      return lidar_checks(observe_lidar(*devices.lidar, *devices.decoder, duration, monotonic_now),
+      return lidar_checks(observe_lidar(*devices.lidar, *devices.decoder, duration, HostClock::now),
                           rig);
     }));
   }
   if (devices.trigger) {
     running.push_back(at_the_same_time([&] {
-      return trigger_checks(observe_trigger(*devices.trigger, duration, monotonic_now), rig);
+      return trigger_checks(observe_trigger(*devices.trigger, duration, HostClock::now), rig);
     }));
   }
   std::vector<Check> checks;
