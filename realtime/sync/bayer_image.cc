@@ -63,14 +63,7 @@ Rgb color_at(const Rows& rows, int left, int u, int right, bool red_row, bool re
 
 ConvertedImage from_bayer(const CameraFrame& frame, bool with_color) {
   const RedAt red = red_at(frame.format);
-  const auto pixels =
-      static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
-  ConvertedImage image{.grey = {.width = frame.width, .height = frame.height}};
-  image.grey.pixels.resize(pixels);
-  if (with_color) {
-    image.color = ColorImage{.width = frame.width, .height = frame.height};
-    image.color->rgb.resize(3 * pixels);
-  }
+  ConvertedImage image = black_image(frame.width, frame.height, with_color);
   std::uint8_t* grey = image.grey.pixels.data();
   std::uint8_t* rgb = with_color ? image.color->rgb.data() : nullptr;
   const auto row_at = [&](int v) {

@@ -103,6 +103,17 @@ GreyImage from_16_bits(const CameraFrame& frame, int bits) {
 
 }  // namespace
 
+ConvertedImage black_image(int width, int height, bool with_color) {
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  ConvertedImage image{.grey = {.width = width, .height = height}};
+  image.grey.pixels.resize(pixels);
+  if (with_color) {
+    image.color = ColorImage{.width = width, .height = height};
+    image.color->rgb.resize(3 * pixels);
+  }
+  return image;
+}
+
 Result<ConvertedImage> convert_image(const CameraFrame& frame, bool with_color,
                                      const JpegDecoder& jpeg) {
   if (const auto fits = check_size(frame); !fits) return tl::unexpected(fits.error());

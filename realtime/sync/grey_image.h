@@ -14,6 +14,8 @@ struct ConvertedImage {
   std::optional<ColorImage> color;  // of formats that have it, where asked for
 };
 
+ConvertedImage black_image(int width, int height, bool with_color);
+
 // Compressed frames are read by whoever has a decoder for them.
 using JpegDecoder = std::function<Result<ConvertedImage>(const CameraFrame&)>;
 

@@ -40,14 +40,7 @@ std::uint8_t* put_color(std::uint8_t* rgb, int luma, int cb, int cr) {
 }  // namespace
 
 ConvertedImage from_yuv(const CameraFrame& frame, bool with_color) {
-  const auto pixels =
-      static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
-  ConvertedImage image{.grey = {.width = frame.width, .height = frame.height}};
-  image.grey.pixels.resize(pixels);
-  if (with_color) {
-    image.color = ColorImage{.width = frame.width, .height = frame.height};
-    image.color->rgb.resize(3 * pixels);
-  }
+  ConvertedImage image = black_image(frame.width, frame.height, with_color);
   std::uint8_t* grey = image.grey.pixels.data();
   std::uint8_t* rgb = with_color ? image.color->rgb.data() : nullptr;
   for (int v = 0; v < frame.height; ++v) {
