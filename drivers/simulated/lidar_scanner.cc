@@ -1,14 +1,14 @@
 #include "drivers/simulated/lidar_scanner.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
 
+#include "drivers/gpio/nmea.h"
 #include "drivers/simulated/random.h"
 #include "drivers/vlp16/packet_writer.h"
 #include "drivers/vlp16/vlp16_geometry.h"
@@ -28,15 +28,7 @@ Elapsed network_delay(Random& random) {
   return Elapsed{static_cast<std::int64_t>(1e9 * (45e-6 + random.exponential(35e-6) + late))};
 }
 
-// The beginning of the second that the pulse marked.
-std::string gprmc(std::int64_t second_of_day) {
-  const std::string body =
-      fmt::format("GPRMC,{:02}{:02}{:02}.00,A,4723.0000,N,00832.0000,E,000.0,000.0,150626,,,A",
-                  second_of_day / 3600 % 24, second_of_day / 60 % 60, second_of_day % 60);
-  unsigned check = 0;
-  for (const char c : body) check ^= static_cast<unsigned char>(c);
-  return fmt::format("${}*{:02X}\r\n", body, check);
-}
+constexpr std::chrono::sys_days kDay = std::chrono::June / 15 / 2026;
 
 }  // namespace
 
@@ -120,7 +112,8 @@ PositionPacket LidarScanner::position(std::uint64_t after_packet) const {
   const std::int64_t pulse = pulses_.last_before(made);
   packet.payload = write_position_packet(
       clock_.microseconds_past_hour(made), options_.pps ? PpsState::kLocked : PpsState::kAbsent,
-      options_.pps ? gprmc(pulses_.second_of_day(pulse)) : std::string());
+      options_.pps ? gprmc(kDay + std::chrono::seconds(pulses_.second_of_day(pulse)))
+                   : std::string());
   packet.arrival = HostTime{made + kPositionOnWire + network_delay(random)};
   return packet;
 }
