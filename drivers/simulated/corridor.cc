@@ -167,7 +167,7 @@ class CorridorBuilder {
   }
 
   void hang_poster(const Wall& wall, float middle) {
-    const Eigen::Vector2f size(random_.uniform_f(0.45, 0.85), random_.uniform_f(0.6, 1.0));
+    const Eigen::Vector2f size{random_.uniform_f(0.45, 0.85), random_.uniform_f(0.6, 1.0)};
     const float low = random_.uniform_f(1.15, 1.35);
     build_.panel(wall.at(middle - size.x() / 2, low, -0.012F), size.x() * wall.along,
                  {0, 0, size.y()}, palette_.poster(size));

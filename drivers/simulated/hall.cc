@@ -69,7 +69,7 @@ class HallBuilder {
   }
 
   void banner(const Vector3f& low, const Vector3f& along) {
-    const Eigen::Vector2f size(random_.uniform_f(0.9, 1.5), random_.uniform_f(1.4, 2.0));
+    const Eigen::Vector2f size{random_.uniform_f(0.9, 1.5), random_.uniform_f(1.4, 2.0)};
     build_.panel(low, size.x() * along, {0, 0, size.y()}, palette_.poster(size));
   }
 
@@ -145,8 +145,10 @@ class HallBuilder {
       for (float x = -1.5F; x < 1.5F;) {
         const float width = random_.uniform_f(0.35, 0.7);
         if (random_.chance(0.75) && x + width < 1.65F) {
-          carton(foot + Vector3f(x + width / 2, random_.uniform_f(-0.1, 0.1), z + 0.06F),
-                 {width - 0.04F, random_.uniform_f(0.4, 0.65), random_.uniform_f(0.3, 0.75)},
+          const float aside = random_.uniform_f(-0.1, 0.1);
+          const Vector3f size{width - 0.04F, random_.uniform_f(0.4, 0.65),
+                              random_.uniform_f(0.3, 0.75)};
+          carton(foot + Vector3f(x + width / 2, aside, z + 0.06F), size,
                  random_.uniform_f(-0.06, 0.06));
         }
         x += width;
@@ -161,9 +163,8 @@ class HallBuilder {
     float z = 0.14F;
     for (int i = random_.index(3); i >= 0; --i) {
       const float height = random_.uniform_f(0.3, 0.6);
-      carton(foot + Vector3f(0, 0, z),
-             {random_.uniform_f(0.6, 0.95), random_.uniform_f(0.5, 0.75), height},
-             yaw + random_.uniform_f(-0.15, 0.15));
+      const Vector3f size{random_.uniform_f(0.6, 0.95), random_.uniform_f(0.5, 0.75), height};
+      carton(foot + Vector3f(0, 0, z), size, yaw + random_.uniform_f(-0.15, 0.15));
       z += height;
     }
   }

@@ -179,18 +179,19 @@ void Palette::paint_poster(Canvas& canvas) {
       canvas.photograph(0.54F, 0.35F, 0.92F, 0.7F, random_);
       canvas.print(0.54F, 0.06F, 0.92F, 0.3F, 6, ink, random_);
       break;
-    case 2:
+    case 2: {
       canvas.photograph(0.0F, 0.0F, 1.0F, 1.0F, random_);
-      canvas.disc(random_.uniform_f(0.3, 0.7), random_.uniform_f(0.5, 0.75), 0.2F,
-                  random_.uniform_f(0.1, 0.9));
+      const Eigen::Vector2f middle{random_.uniform_f(0.3, 0.7), random_.uniform_f(0.5, 0.75)};
+      canvas.disc(middle.x(), middle.y(), 0.2F, random_.uniform_f(0.1, 0.9));
       canvas.print(0.08F, 0.08F, 0.9F, 0.2F, 1, 0.92F, random_);
       break;
+    }
     default:
       for (int i = 0; i < 9; ++i) {
-        const float x = random_.uniform_f(0.04, 0.7);
-        const float y = random_.uniform_f(0.04, 0.75);
-        canvas.rectangle(x, y, x + random_.uniform_f(0.1, 0.26), y + random_.uniform_f(0.06, 0.2),
-                         random_.uniform_f(0.1, 0.95));
+        const Eigen::Vector2f low{random_.uniform_f(0.04, 0.7), random_.uniform_f(0.04, 0.75)};
+        const Eigen::Vector2f size{random_.uniform_f(0.1, 0.26), random_.uniform_f(0.06, 0.2)};
+        const Eigen::Vector2f high = low + size;
+        canvas.rectangle(low.x(), low.y(), high.x(), high.y(), random_.uniform_f(0.1, 0.95));
       }
       canvas.print(0.06F, 0.84F, 0.94F, 0.95F, 2, ink, random_);
       break;

@@ -14,7 +14,8 @@ inline std::uint64_t hash(std::uint64_t x) {
 }
 
 // The same sequence on every machine, unlike the distributions of the standard library. What is
-// made in any order, as frames are, seeds one of its own with its number.
+// made in any order, as frames are, seeds one of its own with its number. Draws of one expression
+// stand in braces: the order of a function's arguments is the compiler's own.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(hash(seed)) {}

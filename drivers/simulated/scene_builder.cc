@@ -42,7 +42,7 @@ void SceneBuilder::column(const Vector3f& foot, float radius, float height, int 
   if (top_radius < 0.0F) top_radius = radius;
   const float step = 2.0F * static_cast<float>(M_PI) / static_cast<float>(faces);
   const Vector3f up(0.0F, 0.0F, height);
-  const Eigen::Vector2f offset(random_.uniform_f(0.0, 8.0), random_.uniform_f(0.0, 8.0));
+  const Eigen::Vector2f offset{random_.uniform_f(0.0, 8.0), random_.uniform_f(0.0, 8.0)};
   for (int i = 0; i < faces; ++i) {
     const Vector3f a = around(step * static_cast<float>(i));
     const Vector3f b = around(step * static_cast<float>(i + 1));
@@ -86,14 +86,14 @@ void SceneBuilder::roller(const Vector3f& from, const Vector3f& to, float radius
 void SceneBuilder::foliage(const Vector3f& middle, const Vector3f& radii, int leaves, float leaf_m,
                            int material) {
   for (int i = 0; i < leaves; ++i) {
-    Vector3f d(static_cast<float>(random_.gaussian()), static_cast<float>(random_.gaussian()),
-               static_cast<float>(random_.gaussian()));
+    Vector3f d{static_cast<float>(random_.gaussian()), static_cast<float>(random_.gaussian()),
+               static_cast<float>(random_.gaussian())};
     d.normalize();
     const float out = std::pow(random_.uniform_f(0.08, 1.0), 0.45F);
     const Vector3f at = middle + out * d.cwiseProduct(radii);
     // Leaves face outwards more than not.
-    Vector3f normal = d + 0.8F * Vector3f(random_.uniform_f(-1, 1), random_.uniform_f(-1, 1),
-                                          random_.uniform_f(-0.6, 1));
+    Vector3f normal = d + 0.8F * Vector3f{random_.uniform_f(-1, 1), random_.uniform_f(-1, 1),
+                                          random_.uniform_f(-0.6, 1)};
     normal.normalize();
     const Vector3f right = normal.cross(Vector3f(0.31F, -0.22F, 0.92F)).normalized() * 1.4F *
                            leaf_m * random_.uniform_f(0.6, 1.2);

@@ -17,6 +17,9 @@ constexpr float kKerb = 4.2F;
 constexpr float kKerbHeight = 0.12F;
 constexpr float kFloor = 3.1F;
 constexpr float kRecess = 0.16F;
+constexpr float kCrossing = 28.4F;  // where people walk over the road, from the street's middle
+
+bool in_the_way(float x) { return std::abs(std::abs(x) - kCrossing) < 1.2F; }
 
 // The front of a house: `along` to the right as seen from the street.
 struct Front {
@@ -80,7 +83,7 @@ class StreetBuilder {
     const float top = kKerbHeight + 0.003F;
     for (const float side : {-1.0F, 1.0F}) {
       build_.box({0, side * (kKerb + 0.07F), 0}, {2 * a, 0.15F, top}, 0.0F, kerb);
-      for (const float x : {-28.4F, 28.4F}) {  // crossings
+      for (const float x : {-kCrossing, kCrossing}) {
         for (float y = 0.5F; y < kKerb; y += 1.0F) {
           build_.panel({x - 1.5F, side * y - 0.25F, 0.002F}, {3.0F, 0, 0}, {0, 0.5F, 0}, paint);
         }
@@ -181,8 +184,9 @@ class StreetBuilder {
     build_.column(front.at(0.15F, 0.0F, -0.09F), 0.05F, height - 0.3F, 8, metal_);
     if (random_.chance(0.6)) {
       const Eigen::Vector2f size(random_.uniform_f(1.4, 2.6), 0.5F);
-      build_.panel(front.at(random_.uniform_f(0.6, front.length - 3.2), 2.62F, -0.03F),
-                   size.x() * front.along, {0, 0, 0.4F}, palette_.sign(size, false));
+      const float x = random_.uniform_f(0.6, front.length - 3.2);
+      build_.panel(front.at(x, 2.62F, -0.03F), size.x() * front.along, {0, 0, 0.4F},
+                   palette_.sign(size, false));
     }
   }
 
@@ -194,6 +198,7 @@ class StreetBuilder {
   void furniture(float side) {
     const int leaves = palette_.leaves(random_.uniform_f(0.26, 0.38));
     for (float x = -34.0F; x < 35.0F; x += random_.uniform_f(9.0, 13.0)) {
+      if (in_the_way(x)) continue;
       const Vector3f foot(x, side * (kKerb + 0.75F), kKerbHeight);
       build_.column(foot, 0.17F, 3.4F, 10, bark_, 0.10F);
       build_.column(foot, 0.5F, 0.03F, 10, palette_.plain(0.2F, 0.2F, 0.3F, 20));
@@ -201,7 +206,8 @@ class StreetBuilder {
       build_.foliage(foot + Vector3f(0, 0, 4.3F), size * Vector3f(1.7F, 1.5F, 1.5F), 1900, 0.19F,
                      leaves);
       const Vector3f beside =
-          foot + Vector3f(random_.uniform_f(2.5, 4.5), random_.uniform_f(-0.1, 0.1), 0);
+          foot + Vector3f{random_.uniform_f(2.5, 4.5), random_.uniform_f(-0.1, 0.1), 0.0F};
+      if (in_the_way(beside.x())) continue;
       switch (random_.index(4)) {
         case 0:
           lamp_post(beside, side);
@@ -218,7 +224,7 @@ class StreetBuilder {
       }
     }
     for (float x = -30.0F; x < 32.0F; x += 4.4F) {
-      if (random_.chance(0.45))
+      if (random_.chance(0.45) && !in_the_way(x))
         build_.column({x, side * (kKerb + 0.35F), kKerbHeight}, 0.06F, 0.85F, 10, metal_);
       if (random_.chance(0.3)) {
         const float width = random_.uniform_f(0.5, 1.0);
@@ -347,7 +353,7 @@ Scene make_street(std::uint64_t seed) {
   scene.bounced_light = 0.55F;
   scene.light_spacing_m = 0.3F;
   scene.exposure_gain = 290.0F;
-  scene.walk.corners = {{-28.4, -6.3}, {28.4, -6.3}, {28.4, 6.3}, {-28.4, 6.3}};
+  scene.walk.corners = {{-kCrossing, -6.3}, {kCrossing, -6.3}, {kCrossing, 6.3}, {-kCrossing, 6.3}};
   scene.walk.corner_m = 2.0;
   scene.walk.height_m = 1.55 + kKerbHeight;
   scene.walk.speed_m_s = 1.2;

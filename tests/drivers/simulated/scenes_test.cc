@@ -35,7 +35,7 @@ TEST_P(EveryScene, HasRoomForTheWalk) {
       if (hit.any()) nearest = std::min(nearest, static_cast<double>(hit.distance));
     }
   }
-  EXPECT_GT(nearest, 0.3);
+  EXPECT_GT(nearest, 0.45);
 }
 
 TEST_P(EveryScene, IsMadeOfFlatPanelsThatAreNotGigantic) {
