@@ -135,7 +135,9 @@ Result<std::string> RecordingSource::attachment(std::string_view name) {
   const auto index = std::ranges::find(all, name, &mcap::AttachmentIndex::name);
   if (index == all.end()) {
     return fail(ErrorCode::kNotFound,
-                fmt::format("{}: holds no attachment '{}'", info_.file, name));
+                fmt::format("{}: holds no attachment '{}'{}", info_.file, name,
+                            info_.truncated ? "; the file is cut off before it"
+                                            : ": it was not recorded by sparsight"));
   }
   auto attachment = reader_->attachment(*index);
   if (!attachment) return tl::unexpected(attachment.error());

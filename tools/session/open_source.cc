@@ -10,13 +10,12 @@
 #include "drivers/recording/recording_source.h"
 #include "drivers/recording/recording_writer.h"
 #include "drivers/vlp16/vlp16_decoder.h"
+#include "drivers/vlp16/vlp16_geometry.h"
 #include "realtime/sync/rig_frame_source.h"
 #include "tools/configuration/rig_file.h"
 
 namespace sparsight {
 namespace {
-
-constexpr std::size_t kVlp16Rings = 16;
 
 // A recording's frames, as the live rig would have had them.
 class RecordedFrames final : public FrameSource {
@@ -33,7 +32,7 @@ class RecordedFrames final : public FrameSource {
   std::optional<SynchronizedFrame> next() override {
     std::optional<SynchronizedFrame> frame = frames_.next();
     if (frame && rays_) {
-      keep_rings(frame->sweep.returns, kVlp16Rings, static_cast<std::size_t>(*rays_));
+      keep_rings(frame->sweep.returns, kVlp16Lasers, static_cast<std::size_t>(*rays_));
     }
     return frame;
   }

@@ -135,7 +135,8 @@ void add_simulate(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "simulate", "Make a recording of a simulated rig, with its ground truth beside it");
   command->add_option("--scene", arguments->session.options.scene, "corridor, hall or street")
-      ->transform(CLI::CheckedTransformer(kScenes, CLI::ignore_case))
+      ->transform(
+          CLI::CheckedTransformer(kScenes, CLI::ignore_case).description("{corridor,hall,street}"))
       ->default_str("corridor");
   command->add_option("--duration", arguments->duration_s, "Seconds; a corridor lap takes 60")
       ->check(CLI::Range(0.1, 14400.0))
