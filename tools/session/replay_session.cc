@@ -59,6 +59,15 @@ std::optional<std::size_t> frames_to_come(const FrameSource& source, const Repla
   return count ? std::min(*count, *options.max_frames) : *options.max_frames;
 }
 
+// A calibration that the images contradict is the user's to know, and to mend.
+void tell_camera_found(const CameraIntrinsics& given, const CameraIntrinsics& found,
+                       Session& session) {
+  if (found.fx == given.fx && found.k1 == given.k1) return;
+  session.notes.push_back(fmt::format(
+      "the images show a camera with focal length x {:.4f} and k1 {:+.4f} beside the given one",
+      found.fx / given.fx, found.k1 - given.k1));
+}
+
 // Runs to the end of the source, or until it breaks off: then what has been gathered stands.
 void run(FrameSource& source, const ReplayOptions& options, SessionRecorder& recorder) {
   Progress progress(stderr, Progress::style_for(stderr, options.quiet),
@@ -80,6 +89,7 @@ void run(FrameSource& source, const ReplayOptions& options, SessionRecorder& rec
     Odometry odometry(source.calibration(), options.config);
     trajectory = replay_deterministic(interruptible, odometry, options.max_frames,
                                       {.on_frame = on_frame, .on_keyframe = on_keyframe});
+    tell_camera_found(source.calibration().camera, odometry.camera(), recorder.session());
     if (interrupt.pending()) recorder.session().broke_off = "stopped on request";
   } catch (const std::exception& error) {
     recorder.session().broke_off = fmt::format("the replay broke off: {}", error.what());
