@@ -200,8 +200,9 @@ void Odometry::add_keyframe(const SynchronizedFrame& frame) {
   if (static_cast<int>(keyframe->points.size()) < s.config.tracker.min_points) return;
   s.window.add(std::move(keyframe));
   s.window.optimize();
-  if (s.config.self_calibration.enabled && s.window.teach(s.self_calibration)) s.recalibrate();
+  // What leaves goes by the terms that were minimised, before the camera changes them.
   if (s.window.full()) s.retire_oldest();
+  if (s.config.self_calibration.enabled && s.window.teach(s.self_calibration)) s.recalibrate();
   s.motion.rebase(frame.exposure);
   s.untracked = 0;
   s.brightness = {};
