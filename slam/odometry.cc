@@ -7,13 +7,13 @@
 
 #include "slam/points/camera_returns.h"
 #include "slam/tracking/motion_model.h"
+#include "slam/tracking/strangers.h"
 
 namespace sparsight {
 namespace {
 
-constexpr double kErrorMemory = 0.7;   // how fast the expected error of the prediction calms down
-constexpr int kPatientFrames = 3;      // untracked frames before a new keyframe is forced
-constexpr double kHardlyFound = 0.45;  // of the patches; wrong poses seldom find more
+constexpr double kErrorMemory = 0.7;  // how fast the expected error of the prediction calms down
+constexpr int kPatientFrames = 3;     // untracked frames before a new keyframe is forced
 
 CloudPoint colored(const CameraReturn& r, const SynchronizedFrame& frame) {
   CloudPoint point{.p_camera = r.p_camera, .intensity = r.intensity};
@@ -57,8 +57,7 @@ struct Odometry::State {
   double start_error_px = std::numeric_limits<double>::infinity();
   double found_share = 0.0;  // of the last tracked frame
   int untracked = 0;         // frames in a row
-  // Frames in a row that found little or nothing: their velocity is no ground to refuse another.
-  int hardly_found = 0;
+  int in_doubt = 0;          // frames in a row: their velocity is no ground to refuse another
   // Of the frame last tracked, for add_keyframe.
   ImagePyramid pyramid;
   FrameOutcome outcome;
@@ -84,7 +83,7 @@ FrameOutcome Odometry::State::follow(const SynchronizedFrame& frame) {
       .error_px = start_error_px,
       .found_share = found_share,
       .seconds_since_previous =
-          hardly_found < kPatientFrames ? motion.seconds_since_last(frame.exposure) : std::nullopt};
+          in_doubt < kPatientFrames ? motion.seconds_since_last(frame.exposure) : std::nullopt};
   if (!pyramid.empty()) result.tracking = tracker.track(keyframe, pyramid, start);
   if (result.tracking.ok()) {
     result.status = FrameOutcome::Status::kTracked;
@@ -95,8 +94,7 @@ FrameOutcome Odometry::State::follow(const SynchronizedFrame& frame) {
     result.tracking.T_keyframe_camera = start.T_keyframe_predicted;
     ++untracked;
   }
-  const bool found = result.tracking.ok() && result.tracking.found_share >= kHardlyFound;
-  hardly_found = found ? 0 : hardly_found + 1;
+  in_doubt = result.tracking.well_found() ? 0 : in_doubt + 1;
   result.T_world_camera = keyframe.T_world_camera * result.tracking.T_keyframe_camera;
 
   const bool old = to_seconds(frame.exposure - keyframe.exposure) >= config.keyframes.max_age_s;
@@ -116,7 +114,7 @@ void Odometry::State::learn(const SynchronizedFrame& frame, const TrackingResult
   const double error_px =
       camera.intrinsics().fx *
       (error.head<3>().norm() + error.tail<3>().norm() * keyframe.mean_inverse_depth);
-  motion.observe(frame.exposure, result.T_keyframe_camera);
+  motion.observe(frame.exposure, result.T_keyframe_camera, !result.well_found());
   brightness = result.brightness;
   found_share = result.found_share;
   if (predicted) {
@@ -145,6 +143,10 @@ std::unique_ptr<Keyframe> Odometry::State::make_keyframe(const SynchronizedFrame
   for (int level = 0; level < pyramid.levels(); ++level) {
     keyframe->patches.push_back(make_patches(pyramid, level, camera, keyframe->points,
                                              config.photometry.gradient_weight_constant));
+  }
+  if (config.photometry.weigh_down_strangers && window.size() > 0 && outcome.tracking.ok()) {
+    weigh_down_strangers(keyframe->patches, window.keyframe(window.size() - 1).pyramid.level(0),
+                         camera, outcome.tracking.T_keyframe_camera);
   }
   keyframe->cloud_camera.reserve(returns.size());
   for (const CameraReturn& r : returns) keyframe->cloud_camera.push_back(colored(r, frame));

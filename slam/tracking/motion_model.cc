@@ -4,8 +4,10 @@
 
 namespace sparsight {
 
-void MotionModel::observe(HostTime exposure, const Eigen::Isometry3d& T_keyframe_camera) {
-  if (last_exposure_ && exposure > *last_exposure_) {
+void MotionModel::observe(HostTime exposure, const Eigen::Isometry3d& T_keyframe_camera,
+                          bool in_doubt) {
+  const bool learns = !in_doubt || !twist_;
+  if (learns && last_exposure_ && exposure > *last_exposure_) {
     const double seconds = to_seconds(exposure - *last_exposure_);
     twist_ = log_se3(T_keyframe_last_.inverse() * T_keyframe_camera) / seconds;
   }

@@ -12,8 +12,10 @@ namespace sparsight {
 // The constant-motion model of Sec. III: where the camera should be now, from where it was.
 class MotionModel {
  public:
-  // The frame at `exposure` stands at T_keyframe_camera of the current keyframe.
-  void observe(HostTime exposure, const Eigen::Isometry3d& T_keyframe_camera);
+  // The frame at `exposure` stands at T_keyframe_camera of the current keyframe. A pose in doubt
+  // leaves a velocity that is known as it was.
+  void observe(HostTime exposure, const Eigen::Isometry3d& T_keyframe_camera,
+               bool in_doubt = false);
   // The frame at `exposure` is the keyframe from now on, whether or not it was observed.
   void rebase(HostTime exposure);
 

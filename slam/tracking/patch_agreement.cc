@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 namespace sparsight {
 namespace {
 
 constexpr double kFoundCorrelation = 0.7;
+constexpr double kMissingCorrelation = 0.2;
 constexpr double kTextureGrey = 4.0;  // standard deviation from which a patch has texture
 
 struct Moments {
@@ -29,6 +31,24 @@ struct Moments {
   }
 };
 
+bool is_visible(const Linearization& linearization, std::size_t patch) {
+  return linearization.weight[patch * kPatternSize] > 0.0F;  // the pattern's first pixel
+}
+
+// Nothing of a patch without texture.
+std::optional<double> correlation(const PatchSet& patches, const Linearization& linearization,
+                                  const Brightness& brightness, std::size_t patch) {
+  Moments m;
+  const std::size_t first = patch * kPatternSize;
+  for (std::size_t i = first; i < first + kPatternSize; ++i) {
+    if (linearization.weight[i] <= 0.0F) continue;
+    const double reference = patches.intensity[i];
+    m.add(reference, linearization.residual[i] + brightness.gain * reference + brightness.offset);
+  }
+  if (m.variance_a() < kTextureGrey * kTextureGrey) return std::nullopt;
+  return m.correlation();
+}
+
 }  // namespace
 
 PatchAgreement patch_agreement(const PatchSet& patches, const Linearization& linearization,
@@ -37,21 +57,27 @@ PatchAgreement patch_agreement(const PatchSet& patches, const Linearization& lin
   int textured = 0;
   int found = 0;
   for (std::size_t patch = 0; patch < patches.patches; ++patch) {
-    const std::size_t first = patch * kPatternSize;
-    if (linearization.weight[first] <= 0.0F) continue;  // the pattern's first pixel is its centre
+    if (!is_visible(linearization, patch)) continue;
     ++result.visible_patches;
-    Moments m;
-    for (std::size_t i = first; i < first + kPatternSize; ++i) {
-      if (linearization.weight[i] <= 0.0F) continue;
-      const double reference = patches.intensity[i];
-      m.add(reference, linearization.residual[i] + brightness.gain * reference + brightness.offset);
-    }
-    if (m.variance_a() < kTextureGrey * kTextureGrey) continue;
+    const std::optional<double> match = correlation(patches, linearization, brightness, patch);
+    if (!match) continue;
     ++textured;
-    if (m.correlation() >= kFoundCorrelation) ++found;
+    if (*match >= kFoundCorrelation) ++found;
   }
   if (textured > 0) result.found_share = static_cast<double>(found) / textured;
   return result;
+}
+
+std::vector<std::size_t> missing_patches(const PatchSet& patches,
+                                         const Linearization& linearization,
+                                         const Brightness& brightness) {
+  std::vector<std::size_t> missing;
+  for (std::size_t patch = 0; patch < patches.patches; ++patch) {
+    if (!is_visible(linearization, patch)) continue;
+    const std::optional<double> match = correlation(patches, linearization, brightness, patch);
+    if (match && *match < kMissingCorrelation) missing.push_back(patch);
+  }
+  return missing;
 }
 
 }  // namespace sparsight

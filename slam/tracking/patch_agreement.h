@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "slam/tracking/photometric_kernel.h"
 
 namespace sparsight {
@@ -15,5 +18,10 @@ struct PatchAgreement {
 
 PatchAgreement patch_agreement(const PatchSet& patches, const Linearization& linearization,
                                const Brightness& brightness);
+
+// The textured visible patches that the image does not show at all.
+std::vector<std::size_t> missing_patches(const PatchSet& patches,
+                                         const Linearization& linearization,
+                                         const Brightness& brightness);
 
 }  // namespace sparsight

@@ -13,6 +13,8 @@ struct PhotometryConfig {
   bool affine_brightness = false;
   // A patch that disagrees as a whole (a moving car, a reflection) loses weight as a whole.
   bool patch_weights = false;
+  // What the keyframe before does not show loses weight from the start, in a new keyframe.
+  bool weigh_down_strangers = false;
 };
 
 }  // namespace sparsight

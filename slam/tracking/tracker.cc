@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "slam/tracking/patch_agreement.h"
+#include "slam/tracking/speed_scan.h"
 #include "slam/tracking/starting_motions.h"
 
 namespace sparsight {
@@ -56,8 +58,6 @@ class VisitedPlaces {
 // A start that finds more than this share of the patches is as good as right.
 constexpr double kFoundAtStart = 0.4;
 constexpr double kDoubtful = 0.6;
-// Right poses find more than this share of the patches unless strangers fill half of the image.
-constexpr double kWellFound = 0.55;
 
 PhotometryConfig per_pixel(PhotometryConfig photometry) {
   photometry.patch_weights = false;
@@ -126,6 +126,22 @@ Alignment Tracker::descend(const Keyframe& keyframe, const ImagePyramid& image,
                            const Alignment& start, int coarsest) {
   const Alignment near = refine(keyframe, image, start, coarsest, 1, per_pixel(photometry_));
   return refine(keyframe, image, near, 0, 0, photometry_);
+}
+
+Alignment Tracker::past_other_minima(const Keyframe& keyframe, const ImagePyramid& image,
+                                     const Alignment& found, const TrackingStart& start) {
+  const PatchSet& patches = keyframe.patches.front();
+  const Eigen::Vector3d way =
+      start.T_keyframe_predicted.translation() - start.T_keyframe_previous.translation();
+  const std::optional<Alignment> other = best_speed(
+      patches, image.level(0), cameras_.front(), keyframe.mean_inverse_depth, found, way,
+      [&](const Eigen::Isometry3d& T) { return plausible(T, start); }, photometry_, workspace_);
+  if (other) {
+    const Alignment refined = refine(keyframe, image, *other, 0, 0, photometry_);
+    if (refined.cost < found.cost) return refined;
+  }
+  assess(patches, image.level(0), cameras_.front(), found, photometry_, workspace_);
+  return found;
 }
 
 bool Tracker::plausible(const Eigen::Isometry3d& T_keyframe_camera,
@@ -211,8 +227,9 @@ TrackingResult Tracker::track(const Keyframe& keyframe, const ImagePyramid& imag
       std::min({config_.pyramid_levels, image.levels(), static_cast<int>(keyframe.patches.size())});
   const bool known = std::isfinite(start.error_px);
   const Entry from = entry(keyframe, image, start, levels - 1);
-  const Alignment at = from.found ? refine(keyframe, image, from.at, from.level, 0, photometry_)
-                                  : descend(keyframe, image, from.at, from.level);
+  Alignment at = from.found ? refine(keyframe, image, from.at, from.level, 0, photometry_)
+                            : descend(keyframe, image, from.at, from.level);
+  if (config_.scan_speed) at = past_other_minima(keyframe, image, at, start);
   TrackingResult result = verdict(keyframe, at, start, from.level);
   result.attempts = 1;
   // Much less found than in the frame before: perhaps the wrong minimum.

@@ -20,12 +20,16 @@ struct TrackerConfig {
   // Starts at the level where the expected error of the start is about a pixel; otherwise always at
   // the coarsest. At speed, coarse levels lead away from a good start.
   bool automatic_top_level = false;
+  bool scan_speed = false;  // looks for a lower cost at other speeds than that of the minimum
   bool try_other_starts = true;
   int min_points = 30;           // visible patches, fewer cannot be tracked
   double min_found_share = 0.3;  // of the patches, below: diverged
   // No rig that people or vehicles carry changes its speed faster; a pose that says so is wrong.
   double max_acceleration_m_s2 = 1e3;
 };
+
+// Right poses find more than this share of the patches unless strangers fill half of the image.
+inline constexpr double kWellFound = 0.55;
 
 struct TrackingResult {
   enum class Status : std::uint8_t { kConverged, kIterationLimit, kTooFewPoints, kDiverged };
@@ -41,6 +45,7 @@ struct TrackingResult {
   int attempts = 0;  // starting motions tried
 
   bool ok() const { return status == Status::kConverged || status == Status::kIterationLimit; }
+  bool well_found() const { return ok() && found_share >= kWellFound; }
 };
 
 // Where the frame is expected.
@@ -78,6 +83,9 @@ class Tracker {
   // Coarse to fine, both levels included; leaves the last linearisation in the workspace.
   Alignment refine(const Keyframe& keyframe, const ImagePyramid& image, const Alignment& start,
                    int coarsest, int finest, const PhotometryConfig& photometry);
+  // At speed the prediction may have led to the wrong one of many minima along the way.
+  Alignment past_other_minima(const Keyframe& keyframe, const ImagePyramid& image,
+                              const Alignment& found, const TrackingStart& start);
   Alignment descend(const Keyframe& keyframe, const ImagePyramid& image, const Alignment& start,
                     int coarsest);
   TrackingResult verdict(const Keyframe& keyframe, const Alignment& at, const TrackingStart& start,

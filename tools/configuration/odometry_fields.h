@@ -26,6 +26,7 @@ void visit_fields(Visitor& profile, PhotometryConfig& photometry) {
   profile.field("gradient_weight_constant", photometry.gradient_weight_constant, {0.0, 1000.0});
   profile.field("affine_brightness", photometry.affine_brightness);
   profile.field("patch_weights", photometry.patch_weights);
+  profile.field("weigh_down_strangers", photometry.weigh_down_strangers);
 }
 
 template <typename Visitor>
@@ -39,6 +40,7 @@ void visit_fields(Visitor& profile, TrackerConfig& tracker) {
   profile.field("pyramid_levels", tracker.pyramid_levels, {1, 10});
   profile.table("alignment", tracker.alignment);
   profile.field("automatic_top_level", tracker.automatic_top_level);
+  profile.field("scan_speed", tracker.scan_speed);
   profile.field("try_other_starts", tracker.try_other_starts);
   profile.field("min_points", tracker.min_points, {6, 100000});
   profile.field("min_found_share", tracker.min_found_share, {-1.0, 1.0});

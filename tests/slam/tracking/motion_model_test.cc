@@ -35,6 +35,20 @@ RC_GTEST_PROP(MotionModel, ContinuesAConstantTwistOverUnevenTimes, ()) {
   RC_ASSERT(distance(model.predict_in_keyframe(at(10.5)), exp_se3(twist * 0.5)) < 1e-6);
 }
 
+TEST(MotionModel, KeepsItsVelocityWhenAPoseIsInDoubt) {
+  const Vector6d twist = 0.5 * Vector6d::Ones();
+  MotionModel model;
+  model.observe(at(0.0), exp_se3(twist * 0.0));
+  model.observe(at(0.1), exp_se3(twist * 0.1), true);
+  ASSERT_TRUE(model.twist()) << "a doubtful velocity is better than none";
+  const Eigen::Isometry3d T_doubtful = exp_se3(-twist * 0.3);
+  model.observe(at(0.2), T_doubtful, true);
+  EXPECT_LT((*model.twist() - twist).norm(), 1e-9);
+  EXPECT_LT(distance(model.last_in_keyframe(), T_doubtful), 1e-12);
+  model.observe(at(0.3), T_doubtful * exp_se3(-twist * 0.1));
+  EXPECT_LT((*model.twist() + twist).norm(), 1e-9);
+}
+
 TEST(MotionModel, GoesOnAcrossANewKeyframe) {
   Vector6d twist;
   twist << 0.0, 0.3, 0.0, 0.0, 0.0, 8.0;

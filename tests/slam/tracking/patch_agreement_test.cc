@@ -50,6 +50,17 @@ TEST_F(PatchAgreementTest, IsNothingInAnImageWithoutTexture) {
   EXPECT_EQ(agreement(room_, patches_, grey, T_origin_).found_share, 0.0);
 }
 
+TEST_F(PatchAgreementTest, NamesThePatchesThatAreNotThereAtAll) {
+  const auto missing = [&](const GreyImage& image) {
+    Linearization l;
+    linearize(patches_, image, room_.camera(), T_origin_, {}, l);
+    return missing_patches(patches_, l, {});
+  };
+  EXPECT_TRUE(missing(room_.image(T_origin_)).empty());
+  EXPECT_TRUE(missing(room_.image(T_origin_, {0.6, 20.0})).empty());
+  EXPECT_GT(missing(room_.image(T_origin_, {-1.0, 255.0})).size(), patches_.patches * 2 / 3);
+}
+
 TEST_F(PatchAgreementTest, CountsThePatchesWhoseCentreIsSeen) {
   const Eigen::Isometry3d T = pose(0.0, 0.5, 0.0, 0.0, 0.0, 0.0);
   const PatchAgreement turned = agreement(room_, patches_, room_.image(T.inverse()), T);
