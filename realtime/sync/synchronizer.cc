@@ -104,6 +104,7 @@ void Synchronizer::bundle_decided() {
     }
     ready_.push_back(bundler_.bundle(stamped, buffer_, clock_));
     ++counts_.frames_out;
+    if (ready_.back().frame.grey.empty()) ++counts_.frames_without_image;
     if (ready_.back().frame.sweep.returns.empty()) ++counts_.frames_without_returns;
   }
   decided_.clear();

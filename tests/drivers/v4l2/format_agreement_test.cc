@@ -16,7 +16,7 @@ constexpr VideoFormat kTwelve{V4L2_PIX_FMT_Y12, 800, 600, 1600, 960000};
 constexpr VideoFormat kYuyv{V4L2_PIX_FMT_YUYV, 800, 600, 1600, 960000};
 constexpr VideoFormat kBayer{V4L2_PIX_FMT_SBGGR8, 800, 600, 800, 480000};
 constexpr VideoFormat kJpeg{V4L2_PIX_FMT_MJPEG, 800, 600, 0, 500000};
-constexpr VideoFormat kUnknown{V4L2_PIX_FMT_RGB24, 800, 600, 2400, 1440000};
+constexpr VideoFormat kUnknown{V4L2_PIX_FMT_RGB565, 800, 600, 2400, 1440000};
 
 class FormatAgreementTest : public ::testing::Test {
  protected:
