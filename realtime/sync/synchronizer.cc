@@ -5,8 +5,9 @@
 namespace sparsight {
 namespace {
 
-// Sixty years of uptime. A recording may claim any time; within this, differences of two fit.
-constexpr HostTime kEndOfTime{std::chrono::hours(24 * 365 * 60)};
+// 2090, for recordings on a time line that begins with 1970. A recording may claim any time; within
+// this, differences of two fit.
+constexpr HostTime kEndOfTime{std::chrono::hours(24 * 365 * 120)};
 
 }  // namespace
 

@@ -2,7 +2,9 @@
 
 #include <utility>
 
+#include "drivers/datasets/capture_folder.h"
 #include "drivers/datasets/open_dataset.h"
+#include "tools/session/captured_frames.h"
 #include "tools/session/recorded_frames.h"
 
 namespace sparsight {
@@ -12,6 +14,7 @@ bool is_recording(const std::filesystem::path& source) { return source.extension
 Result<OpenedSource> open_source(const std::filesystem::path& source,
                                  const SourceOptions& options) {
   if (is_recording(source)) return open_recording(source, options);
+  if (is_capture_folder(source)) return open_capture(source, options);
   auto frames = open_dataset(source, {.rays = options.rays, .camera = options.camera});
   if (!frames) return tl::unexpected(frames.error());
   return OpenedSource{std::move(*frames)};

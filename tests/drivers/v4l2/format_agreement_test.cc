@@ -50,7 +50,7 @@ TEST_F(FormatAgreementTest, TakesTheOneAskedForOrNone) {
   config_.format = "YUYV";
   EXPECT_EQ(chosen({kGrey, kYuyv}), PixelFormat::kYuyv);
   EXPECT_EQ(refusal({kGrey, kUnknown}),
-            "/dev/video0: [camera] format = \"YUYV\" is not among what it offers (GREY, RGB3)");
+            "/dev/video0: [camera] format = \"YUYV\" is not among what it offers (GREY, RGBP)");
 }
 
 TEST_F(FormatAgreementTest, PassesByAFormatThatComesAtAnotherSize) {
