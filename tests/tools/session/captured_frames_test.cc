@@ -13,46 +13,9 @@ namespace sparsight {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::MadeCapture;
 using testing::MadeWalk;
 using testing::TemporaryFolder;
 namespace fs = std::filesystem;
-
-// Host time to the clock of the machine that captured.
-constexpr auto kSince1970 = 1'700'000'000s;
-
-template <typename Packet>
-void capture_packet(MadeCapture& capture, std::uint16_t port, const Packet& packet) {
-  const auto at = packet.arrival.time_since_epoch() + kSince1970;
-  const auto seconds = std::chrono::floor<std::chrono::seconds>(at);
-  const auto fraction = std::chrono::floor<std::chrono::microseconds>(at - seconds);
-  capture.add(
-      static_cast<std::uint32_t>(seconds.count()), static_cast<std::uint32_t>(fraction.count()),
-      testing::frame_of({.port = port, .payload = {packet.payload.begin(), packet.payload.end()}}));
-}
-
-// The walk as somebody without this program would have recorded it.
-void write_capture_folder(const fs::path& folder, const MadeWalk& walk) {
-  MadeCapture capture;
-  std::string times = "# middle of the exposure\n";
-  std::size_t frames = 0;
-  for (const RigEvent& event : walk.events) {
-    if (const auto* packet = std::get_if<LidarPacket>(&event)) {
-      capture_packet(capture, 2368, *packet);
-    } else if (const auto* position = std::get_if<PositionPacket>(&event)) {
-      capture_packet(capture, 8308, *position);
-    } else if (const auto* frame = std::get_if<std::shared_ptr<const CameraFrame>>(&event)) {
-      const cv::Mat image((*frame)->height, (*frame)->width, CV_8UC1,
-                          const_cast<std::uint8_t*>((*frame)->bytes.data()));
-      testing::write_image(folder / "images" / fmt::format("{}.png", frames), image);
-      const HostTime exposure = walk.simulation->ground_truth().exposures()[frames++];
-      times += fmt::format("{:.7f}\n", to_seconds(exposure.time_since_epoch() + kSince1970));
-    }
-  }
-  testing::write_capture(folder / "lidar.pcap", capture);
-  testing::write_file(folder / "times.txt", times);
-  testing::write_file(folder / "rig.toml", describe(walk.rig));
-}
 
 using Path = std::map<HostTime, Eigen::Isometry3d>;
 
@@ -71,7 +34,7 @@ TEST(CapturedFrames, GiveThePathThatTheRecordingOfTheSameWalkGives) {
   const MadeWalk& walk = MadeWalk::shared();
   const TemporaryFolder temporary;
   testing::write_recording(temporary.path() / "walk.mcap", walk.events, walk.rig);
-  write_capture_folder(temporary.path() / "walk", walk);
+  testing::write_capture_folder(temporary.path() / "walk", walk);
 
   auto recording = open_source(temporary.path() / "walk.mcap", {});
   ASSERT_TRUE(recording) << recording.error().message;
@@ -79,7 +42,7 @@ TEST(CapturedFrames, GiveThePathThatTheRecordingOfTheSameWalkGives) {
   auto capture = open_source(temporary.path() / "walk", {});
   ASSERT_TRUE(capture) << capture.error().message;
   EXPECT_EQ(capture->frames->frame_count(), walk.simulation->ground_truth().exposures().size());
-  const Path captured = tracked(*capture->frames, -kSince1970);
+  const Path captured = tracked(*capture->frames, -testing::kSince1970);
   EXPECT_EQ(captured.size(), capture->frames->frame_count());
   EXPECT_THAT(capture->remarks(), ::testing::SizeIs(::testing::Le(1)));
 
