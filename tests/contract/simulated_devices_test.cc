@@ -1,5 +1,6 @@
 #include "drivers/simulated/simulated_devices.h"
 
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
