@@ -25,6 +25,7 @@ enum class PixelFormat : std::uint8_t {
   kYuyv,
   kUyvy,
   kNv12,
+  kRgb8,  // RGB3
   kMjpeg,
 };
 

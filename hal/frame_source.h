@@ -32,7 +32,8 @@ class FrameSource {
   virtual ~FrameSource() = default;
 
   virtual const RigCalibration& calibration() const = 0;
-  // How many frames next() will yield in all, where that is known.
+  // How many frames next() will yield, where that is known; of a rig's frames fewer come, as the
+  // first have nobody to vouch for their time.
   virtual std::optional<std::size_t> frame_count() const = 0;
   // Frames in the order of their exposure; nothing after the last.
   virtual std::optional<SynchronizedFrame> next() = 0;

@@ -77,14 +77,15 @@ std::string_view trimmed(std::string_view line) {
 
 }  // namespace
 
-Result<std::vector<HostTime>> parse_times_seconds(std::string_view text, const std::string& file) {
+Result<std::vector<HostTime>> parse_times_seconds(std::string_view text, const std::string& file,
+                                                  std::size_t lines_above) {
   std::vector<HostTime> times;
   std::vector<std::string_view> lines = split_lines(text);
   while (!lines.empty() && trimmed(lines.back()).empty()) lines.pop_back();
   for (const std::string_view line : lines) {
     const std::optional<double> seconds = number_from<double>(trimmed(line));
     if (!seconds || !(std::abs(*seconds) < kMaxSeconds)) {
-      return malformed(file, times.size() + 1, line, "a time in seconds");
+      return malformed(file, lines_above + times.size() + 1, line, "a time in seconds");
     }
     times.emplace_back(std::chrono::nanoseconds(std::llround(*seconds * 1e9)));
   }
@@ -105,14 +106,14 @@ Result<std::vector<std::optional<HostTime>>> parse_timestamps_utc(std::string_vi
 }
 
 Result<std::vector<HostTime>> require_increasing(std::vector<HostTime> times,
-                                                 const std::string& file) {
+                                                 const std::string& file, std::size_t lines_above) {
   for (std::size_t i = 1; i < times.size(); ++i) {
     if (times[i] > times[i - 1]) continue;
     return fail(ErrorCode::kOutOfRange,
                 fmt::format("{}:{}: time {:.9f} s does not come after line {}'s {:.9f} s; frames "
                             "must be in the order of their exposure",
-                            file, i + 1, to_seconds(times[i].time_since_epoch()), i,
-                            to_seconds(times[i - 1].time_since_epoch())));
+                            file, lines_above + i + 1, to_seconds(times[i].time_since_epoch()),
+                            lines_above + i, to_seconds(times[i - 1].time_since_epoch())));
   }
   return times;
 }

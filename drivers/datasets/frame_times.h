@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,8 +11,10 @@
 
 namespace sparsight {
 
-// KITTI odometry's times.txt: seconds, one number per line. `file` is for error messages.
-Result<std::vector<HostTime>> parse_times_seconds(std::string_view text, const std::string& file);
+// KITTI odometry's times.txt: seconds, one number per line. `file` is for error messages,
+// which count the lines above `text`, too.
+Result<std::vector<HostTime>> parse_times_seconds(std::string_view text, const std::string& file,
+                                                  std::size_t lines_above = 0);
 
 // KITTI raw's timestamps: "YYYY-MM-DD hh:mm:ss.nnnnnnnnn", one per line, counted from 1970. An
 // empty line stands for a frame that was not recorded.
@@ -20,6 +23,7 @@ Result<std::vector<std::optional<HostTime>>> parse_timestamps_utc(std::string_vi
 
 // Refuses times that do not increase, naming the line.
 Result<std::vector<HostTime>> require_increasing(std::vector<HostTime> times,
-                                                 const std::string& file);
+                                                 const std::string& file,
+                                                 std::size_t lines_above = 0);
 
 }  // namespace sparsight

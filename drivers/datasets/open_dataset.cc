@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/datasets/capture_folder.h"
 #include "drivers/datasets/kitti_odometry.h"
 #include "drivers/datasets/kitti_raw.h"
 #include "drivers/datasets/prefetching_source.h"
@@ -19,7 +20,7 @@ namespace {
 constexpr std::size_t kFramesAhead = 4;
 
 bool is_dataset(const fs::path& folder) {
-  return is_kitti_raw(folder) || is_kitti_odometry(folder);
+  return is_kitti_raw(folder) || is_kitti_odometry(folder) || is_capture_folder(folder);
 }
 
 // Data sets one or two levels below: what a person who named the folder above may have meant.
@@ -56,8 +57,9 @@ Result<FolderIndex> index_folder(const fs::path& folder, std::optional<int> came
   if (is_kitti_odometry(folder)) return index_kitti_odometry(folder, camera);
   return fail(ErrorCode::kNotFound,
               fmt::format("{}: not a data set. Looked for a KITTI odometry sequence (calib.txt, "
-                          "times.txt, image_N/, velodyne/) and a KITTI raw drive (image_0N/, "
-                          "velodyne_points/){}",
+                          "times.txt, image_N/, velodyne/), a KITTI raw drive (image_0N/, "
+                          "velodyne_points/) and a capture (lidar.pcap, images/, times.txt, "
+                          "rig.toml){}",
                           folder.string(), datasets_below(folder)));
 }
 

@@ -27,6 +27,7 @@ constexpr Encoding kEncodings[] = {
     {PixelFormat::kYuyv, "yuv422_yuy2"},
     {PixelFormat::kUyvy, "yuv422"},
     {PixelFormat::kNv12, "nv12"},
+    {PixelFormat::kRgb8, "rgb8"},
     {PixelFormat::kMjpeg, "jpeg"},
 };
 

@@ -53,10 +53,10 @@ class CorridorBuilder {
       : build_(scene, seed), random_(build_.random()), palette_(scene.library, random_) {
     skirting_ = palette_.plain(0.3F, 0.03F, 0.05F);
     frame_ = palette_.plain(0.45F, 0.03F, 0.06F, 55);
-    metal_ = palette_.plain(0.5F, 0.03F, 0.05F, 70);
+    metal_ = palette_.tinted(palette_.plain(0.5F, 0.03F, 0.05F, 70), 215.0F, 0.08F);
     lamp_ = palette_.lamp(11.0F);
     radiator_ = palette_.slats(0.06F);
-    wood_ = palette_.plain(0.38F, 0.05F, 0.2F, 35);
+    wood_ = palette_.tinted(palette_.plain(0.38F, 0.05F, 0.2F, 35), 28.0F, 0.45F);
     leaf_ = palette_.leaves(0.28F);
   }
 
@@ -64,8 +64,8 @@ class CorridorBuilder {
     const float a = kLength / 2.0F;
     const float b = kBreadth / 2.0F;
     const float w = kWidth / 2.0F;
-    const int bright = palette_.plain(0.66F, 0.10F, 0.05F, 60);
-    const int plain = palette_.plain(0.58F, 0.07F, 0.04F, 55);
+    const int bright = palette_.tinted(palette_.plain(0.66F, 0.10F, 0.05F, 60), 46.0F, 0.2F);
+    const int plain = palette_.tinted(palette_.plain(0.58F, 0.07F, 0.04F, 55), 130.0F, 0.12F);
     const int brick = palette_.bricks();
     // Outer walls as seen from inside; the block's walls as seen from around it.
     wall({{a + w, -b - w, 0}, {-1, 0, 0}, kLength + kWidth, plain, true});
@@ -185,7 +185,7 @@ class CorridorBuilder {
     }
     if (random_.chance(0.15)) {  // extinguisher
       build_.column(wall.at(to - 0.3F, 0.55F, -0.1F), 0.075F, 0.5F, 10,
-                    palette_.plain(0.22F, 0.02F, 0.05F, 50));
+                    palette_.tinted(palette_.plain(0.22F, 0.02F, 0.05F, 50), 2.0F, 1.1F));
       const Eigen::Vector2f size(0.2F, 0.2F);
       build_.panel(wall.at(to - 0.4F, 1.6F, -0.01F), size.x() * wall.along, {0, 0, size.y()},
                    palette_.sign(size, true));
@@ -212,7 +212,7 @@ class CorridorBuilder {
         break;
       case 1:  // plant
         build_.column(wall.at(middle, 0.0F, r.depth / 2), 0.15F, 0.4F, 10,
-                      palette_.plain(0.4F, 0.04F, 0.08F), 0.19F);
+                      palette_.tinted(palette_.plain(0.4F, 0.04F, 0.08F), 16.0F, 0.55F), 0.19F);
         build_.foliage(wall.at(middle, 0.9F, r.depth / 2), {0.28F, 0.28F, 0.45F}, 160, 0.11F,
                        leaf_);
         break;

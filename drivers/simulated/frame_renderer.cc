@@ -27,8 +27,9 @@ constexpr std::array<std::array<float, 2>, kLooks> kPlaces{{{-0.4375F, -0.0625F}
 
 }  // namespace
 
-FrameRenderer::FrameRenderer(const World& world, const CameraIntrinsics& camera)
+FrameRenderer::FrameRenderer(const World& world, const CameraIntrinsics& camera, bool color)
     : world_(world),
+      color_(color),
       width_(camera.width),
       height_(camera.height),
       brightest_(kBrightestGrey / world.scene().exposure_gain),
@@ -96,6 +97,13 @@ float FrameRenderer::light_of(const View& view, const Hit& hit, const Eigen::Vec
   return world_.radiance(hit.panel, view.origin, sighting, hit.distance);
 }
 
+// Of the light, what the pixel's filter lets through.
+float FrameRenderer::share_of(const Hit& hit, std::size_t pixel) const {
+  if (!color_) return 1.0F;
+  const int at = static_cast<int>(pixel);
+  return world_.tint_of(hit.panel)[bayer_channel(at % width_, at / width_)];
+}
+
 void FrameRenderer::refine(const View& view, const std::vector<int>& pixels,
                            std::vector<float>& light) const {
   constexpr std::size_t kBatch = 8;
@@ -120,8 +128,9 @@ void FrameRenderer::refine(const View& view, const std::vector<int>& pixels,
       for (std::size_t look = 0; look < kLooks; ++look) {
         const RTCRayHit& found = looks[(i - first) * kLooks + look];
         // A lamp in a share of the pixel must not outshine the rest, or its edge is jagged.
-        sum += std::min(brightest_, light_of(view, {found.hit.primID, found.ray.tfar},
-                                             place(pixel, look), 0.5F));
+        const Hit hit{found.hit.primID, found.ray.tfar};
+        sum += std::min(brightest_, light_of(view, hit, place(pixel, look), 0.5F)) *
+               share_of(hit, pixel);
       }
       light[pixel] = sum / kLooks;
     }
@@ -139,7 +148,7 @@ std::vector<float> FrameRenderer::render(const Eigen::Isometry3d& T_world_camera
     if (next_edge < edges.size() && edges[next_edge] == static_cast<int>(i)) {
       ++next_edge;  // refined below
     } else {
-      light[i] = light_of(view, hits[i], rays_[i], 1.0F);
+      light[i] = light_of(view, hits[i], rays_[i], 1.0F) * share_of(hits[i], i);
     }
   }
   refine(view, edges, light);

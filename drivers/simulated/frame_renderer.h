@@ -9,10 +9,11 @@
 namespace sparsight::simulated {
 
 // Looks at the world through the lens. One look into every pixel, with textures averaged over it;
-// pixels at the edges of bodies get eight. Thread-safe.
+// pixels at the edges of bodies get eight. In colour, each pixel sees what its place in the Bayer
+// pattern lets through. Thread-safe.
 class FrameRenderer {
  public:
-  FrameRenderer(const World& world, const CameraIntrinsics& camera);
+  FrameRenderer(const World& world, const CameraIntrinsics& camera, bool color = false);
 
   // Light per pixel, row after row.
   std::vector<float> render(const Eigen::Isometry3d& T_world_camera) const;
@@ -30,7 +31,10 @@ class FrameRenderer {
   float light_of(const View& view, const Hit& hit, const Eigen::Vector2f& on_plane,
                  float pixel) const;
 
+  float share_of(const Hit& hit, std::size_t pixel) const;
+
   const World& world_;
+  bool color_;
   int width_;
   int height_;
   float brightest_;

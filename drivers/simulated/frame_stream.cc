@@ -11,7 +11,7 @@ constexpr int kBlurLooks = 5;
 
 FrameStream::FrameStream(const FrameContext& context)
     : context_(context),
-      renderer_(context.world, context.calibration.camera),
+      renderer_(context.world, context.calibration.camera, context.options.color),
       imager_(context.options, context.calibration.camera, context.world.scene().exposure_gain),
       images_([this](std::uint64_t i) { return look(due_[i].number); }, 3) {
   plan();
@@ -65,7 +65,7 @@ RigEvent FrameStream::take() {
   frame->driver_time = context_.options.start + times.driver;
   frame->arrival = context_.options.start + times.arrival;
   frame->exposure = context_.options.exposure;
-  frame->format = PixelFormat::kGrey8;
+  frame->format = context_.options.color ? PixelFormat::kBayerRggb8 : PixelFormat::kGrey8;
   frame->width = frame->stride_bytes = context_.options.width;
   frame->height = context_.options.height;
   frame->bytes = images_.take(next_, due_.size());

@@ -21,8 +21,8 @@ class HallBuilder {
  public:
   HallBuilder(Scene& scene, std::uint64_t seed)
       : build_(scene, seed), random_(build_.random()), palette_(scene.library, random_) {
-    steel_ = palette_.plain(0.42F, 0.06F, 0.08F, 65);
-    paint_ = palette_.plain(0.7F, 0.1F, 0.15F, 80);
+    steel_ = palette_.tinted(palette_.plain(0.42F, 0.06F, 0.08F, 65), 218.0F, 0.35F);
+    paint_ = palette_.tinted(palette_.plain(0.7F, 0.1F, 0.15F, 80), 50.0F, 0.9F);
     wood_ = palette_.boards();
     concrete_ = palette_.plain(0.45F, 0.2F, 0.18F, 45);
   }

@@ -21,7 +21,8 @@ struct Material {
   int detail = kNoTexture;  // unevenness of millimetres to decimetres, beginning anywhere
   float detail_m = 0.7F;
   float detail_gain = 0.0F;
-  float emission = 0.0F;           // light given off; lamps and windows
+  Eigen::Vector3f tint = Eigen::Vector3f::Ones();  // see tint(); only colour cameras notice
+  float emission = 0.0F;                           // light given off; lamps and windows
   std::uint8_t reflectivity = 40;  // calibrated, as the sensor reports it; above 100 reflects back
   float dropout = 0.004F;          // share of firings without return: glass, polished metal
 };

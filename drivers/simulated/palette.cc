@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "drivers/simulated/canvas.h"
+#include "drivers/simulated/tint.h"
 
 namespace sparsight::simulated {
 namespace {
@@ -55,7 +56,20 @@ int Palette::plain(float albedo, float stain, float grain, int reflectivity) {
   material.detail_m = random_.uniform_f(1.0, 1.5);
   material.detail_gain = grain;
   material.reflectivity = static_cast<std::uint8_t>(reflectivity);
+  material.tint = tint(40.0F, 0.08F);  // a little warm
   return library_.add(material);
+}
+
+int Palette::tinted(int material, float hue_deg, float saturation) {
+  library_.materials[static_cast<std::size_t>(material)].tint = tint(hue_deg, saturation);
+  return material;
+}
+
+// By the count of materials, not by a draw: a place is the same in grey and in colour.
+int Palette::tinted_by_turns(int material, std::initializer_list<float> hues_deg,
+                             float saturation) {
+  const std::size_t turn = static_cast<std::size_t>(material) % hues_deg.size();
+  return tinted(material, *(hues_deg.begin() + turn), saturation);
 }
 
 int Palette::pattern(Texture texture, Eigen::Vector2f size_m, float stain, float grain,
@@ -73,6 +87,7 @@ int Palette::lamp(float emission) {
   material.emission = emission;
   material.reflectivity = 30;
   material.dropout = 0.05F;
+  material.tint = tint(45.0F, 0.06F);
   return library_.add(material);
 }
 
@@ -86,7 +101,7 @@ int Palette::window(float emission) {
   const int index = pattern(canvas.texture(), {1.0F, 1.4F}, 0.05F, 0.03F, 8);
   library_.materials[static_cast<std::size_t>(index)].emission = emission;
   library_.materials[static_cast<std::size_t>(index)].dropout = 0.75F;
-  return index;
+  return tinted(index, 212.0F, 0.2F);
 }
 
 int Palette::glass() {
@@ -101,17 +116,19 @@ int Palette::glass() {
   canvas.rectangle(0.0F, 0.68F, 1.0F, 0.71F, 0.62F);
   const int index = pattern(canvas.texture(), {1.2F, 1.5F}, 0.05F, 0.02F, 10);
   library_.materials[static_cast<std::size_t>(index)].dropout = 0.7F;
-  return index;
+  return tinted(index, 200.0F, 0.3F);
 }
 
 int Palette::bricks() {
-  return pattern(masonry(512, 4, 12, 5.0F, 0.36F, 0.11F, 0.55F, 0.5F, random_), {1.0F, 0.9F}, 0.15F,
-                 0.12F, 35);
+  return tinted(pattern(masonry(512, 4, 12, 5.0F, 0.36F, 0.11F, 0.55F, 0.5F, random_), {1.0F, 0.9F},
+                        0.15F, 0.12F, 35),
+                14.0F, 0.55F);
 }
 
 int Palette::floor_tiles(float tile_m, float light, float joint) {
-  return pattern(masonry(512, 4, 4, 2.0F, light, 0.05F, joint, 0.0F, random_),
-                 {4.0F * tile_m, 4.0F * tile_m}, 0.16F, 0.14F, 30);
+  return tinted(pattern(masonry(512, 4, 4, 2.0F, light, 0.05F, joint, 0.0F, random_),
+                        {4.0F * tile_m, 4.0F * tile_m}, 0.16F, 0.14F, 30),
+                34.0F, 0.14F);
 }
 
 int Palette::boards() {
@@ -130,12 +147,13 @@ int Palette::boards() {
       canvas.at(x, y) *= 1.0F + 0.22F * noise[static_cast<std::size_t>((2 * y) * 1024 + x / 12)];
     }
   }
-  return pattern(canvas.texture(), {2.4F, 1.1F}, 0.15F, 0.08F, 32);
+  return tinted(pattern(canvas.texture(), {2.4F, 1.1F}, 0.15F, 0.08F, 32), 28.0F, 0.5F);
 }
 
 int Palette::ceiling_panels() {
-  return pattern(masonry(512, 2, 2, 3.0F, 0.78F, 0.02F, 0.4F, 0.0F, random_), {1.2F, 1.2F}, 0.05F,
-                 0.10F, 60);
+  return tinted(pattern(masonry(512, 2, 2, 3.0F, 0.78F, 0.02F, 0.4F, 0.0F, random_), {1.2F, 1.2F},
+                        0.05F, 0.10F, 60),
+                50.0F, 0.04F);
 }
 
 int Palette::door(Eigen::Vector2f size_m) {
@@ -159,7 +177,8 @@ int Palette::door(Eigen::Vector2f size_m) {
   canvas.rectangle(0.76F, 0.485F, 0.93F, 0.497F, 0.15F);
   canvas.rectangle(0.4F, 0.72F, 0.6F, 0.75F, 0.85F);  // its number
   canvas.print(0.42F, 0.722F, 0.58F, 0.748F, 1, 0.1F, random_);
-  return pattern(canvas.texture(), size_m, 0.06F, 0.05F, 40);
+  return tinted_by_turns(pattern(canvas.texture(), size_m, 0.06F, 0.05F, 40),
+                         {28.0F, 214.0F, 26.0F, 150.0F}, 0.4F);
 }
 
 void Palette::paint_poster(Canvas& canvas) {
@@ -203,7 +222,8 @@ int Palette::poster(Eigen::Vector2f size_m) {
   Canvas canvas(256, 512, 0.8F);
   paint_poster(canvas);
   canvas.weather(8, 0.7F, 0.06F, random_.bits());
-  return pattern(canvas.texture(), size_m, 0.03F, 0.03F, 55);
+  return tinted_by_turns(pattern(canvas.texture(), size_m, 0.03F, 0.03F, 55),
+                         {8.0F, 44.0F, 205.0F, 330.0F, 150.0F, 28.0F, 232.0F}, 0.4F);
 }
 
 int Palette::sign(Eigen::Vector2f size_m, bool reflecting) {
@@ -211,7 +231,8 @@ int Palette::sign(Eigen::Vector2f size_m, bool reflecting) {
   canvas.outline(0.04F, 0.04F, 0.96F, 0.96F, 0.05F, 0.9F);
   canvas.disc(0.3F, 0.5F, 0.2F, 0.9F);
   canvas.print(0.55F, 0.25F, 0.9F, 0.75F, 3, 0.9F, random_);
-  return pattern(canvas.texture(), size_m, 0.02F, 0.02F, reflecting ? 200 : 60);
+  return tinted(pattern(canvas.texture(), size_m, 0.02F, 0.02F, reflecting ? 200 : 60),
+                reflecting ? 2.0F : 148.0F, 0.9F);
 }
 
 int Palette::cardboard(Eigen::Vector2f size_m) {
@@ -220,7 +241,7 @@ int Palette::cardboard(Eigen::Vector2f size_m) {
   canvas.rectangle(0.1F, 0.12F, 0.4F, 0.4F, 0.82F);
   canvas.print(0.13F, 0.15F, 0.37F, 0.37F, 4, 0.1F, random_);
   canvas.weather(8, 0.75F, 0.12F, random_.bits());
-  return pattern(canvas.texture(), size_m, 0.05F, 0.07F, 38);
+  return tinted(pattern(canvas.texture(), size_m, 0.05F, 0.07F, 38), 31.0F, 0.45F);
 }
 
 int Palette::slats(float period_m) {
@@ -231,7 +252,7 @@ int Palette::slats(float period_m) {
       canvas.at(x, y) = phase < 0.7F ? 0.72F - 0.2F * std::abs(phase - 0.35F) : 0.16F;
     }
   }
-  return pattern(canvas.texture(), {period_m, period_m}, 0.05F, 0.06F, 50);
+  return tinted(pattern(canvas.texture(), {period_m, period_m}, 0.05F, 0.06F, 50), 45.0F, 0.03F);
 }
 
 int Palette::paving() {
@@ -242,14 +263,14 @@ int Palette::paving() {
 int Palette::asphalt() {
   const int index = plain(0.3F, 0.25F, 0.3F, 12);
   library_.materials[static_cast<std::size_t>(index)].detail_m = 0.9F;
-  return index;
+  return tinted(index, 225.0F, 0.05F);
 }
 
 int Palette::leaves(float albedo) {
   const int index = plain(albedo, 0.25F, 0.2F, 30);
   library_.materials[static_cast<std::size_t>(index)].detail = coarse_;
   library_.materials[static_cast<std::size_t>(index)].dropout = 0.05F;
-  return index;
+  return tinted(index, 105.0F, 0.7F);
 }
 
 int Palette::bark() {
@@ -260,7 +281,7 @@ int Palette::bark() {
       canvas.at(x, y) *= 1.0F + 0.6F * noise[static_cast<std::size_t>((y / 4) * 256 + x)];
     }
   }
-  return pattern(canvas.texture(), {0.8F, 0.8F}, 0.1F, 0.15F, 22);
+  return tinted(pattern(canvas.texture(), {0.8F, 0.8F}, 0.1F, 0.15F, 22), 28.0F, 0.3F);
 }
 
 }  // namespace sparsight::simulated

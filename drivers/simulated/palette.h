@@ -1,5 +1,7 @@
 #pragma once
 
+#include <initializer_list>
+
 #include "drivers/simulated/material.h"
 #include "drivers/simulated/random.h"
 
@@ -14,6 +16,11 @@ class Palette {
   // One tone with stains of metres and grain of millimetres.
   int plain(float albedo, float stain = 0.06F, float grain = 0.05F, int reflectivity = 45);
   int pattern(Texture texture, Eigen::Vector2f size_m, float stain, float grain, int reflectivity);
+  // In another colour (see tint()); gives the material back.
+  int tinted(int material, float hue_deg, float saturation);
+  // In one of several colours.
+  int tinted_by_turns(int material, std::initializer_list<float> hues_deg, float saturation);
+
   int lamp(float emission);
   int window(float emission);  // daylight through panes with mullions, of one repetition a metre
   int glass();                 // a dark pane seen from outside; returns few firings

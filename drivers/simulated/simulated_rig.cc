@@ -66,7 +66,7 @@ RigConfig simulated_rig_config(const SimulationOptions& options) {
   config.camera.width = options.width;
   config.camera.height = options.height;
   config.camera.rate_hz = options.rate_hz;
-  config.camera.format = "GREY";
+  config.camera.format = options.color ? "RGGB" : "GREY";
   config.camera.exposure = options.exposure;
   config.lidar.sensor_address = "";
   config.lidar.rpm = 600;
@@ -158,6 +158,9 @@ Result<void> check(const SimulationOptions& options) {
   }
   if (options.width < 32 || options.width > 4096 || options.height < 32 || options.height > 4096) {
     return bad("the frame's width and height", "32 to 4096 pixels");
+  }
+  if (options.color && (options.width % 2 != 0 || options.height % 2 != 0)) {
+    return bad("the width and height of colour frames", "even");
   }
   if (!(options.rate_hz >= 1.0 && options.rate_hz <= 120.0)) {
     return bad("the frame rate", "1 to 120 Hz");

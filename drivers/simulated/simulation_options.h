@@ -41,6 +41,7 @@ struct SimulationOptions {
   int width = 800;
   int height = 600;
   double rate_hz = 30.0;
+  bool color = false;  // a Bayer pattern over the sensor
   SimulatedLens lens = SimulatedLens::kMild;
   std::chrono::microseconds exposure{4000};
   double exposure_drift = 0.0;  // brightness wanders by this share: 0.25 is a quarter up and down

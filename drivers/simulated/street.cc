@@ -53,7 +53,7 @@ class StreetBuilder {
     bark_ = palette_.bark();
     tyre_ = palette_.plain(0.05F, 0.1F, 0.1F, 6);
     rim_ = palette_.plain(0.5F, 0.02F, 0.08F, 70);
-    pane_ = palette_.plain(0.07F, 0.25F, 0.04F, 6);
+    pane_ = palette_.tinted(palette_.plain(0.07F, 0.25F, 0.04F, 6), 210.0F, 0.25F);
     scene.library.materials[static_cast<std::size_t>(pane_)].dropout = 0.6F;
     for (int i = 0; i < 4; ++i) glass_.push_back(palette_.glass());
     scene.daylight.clouds = palette_.clouds();
@@ -104,7 +104,9 @@ class StreetBuilder {
       if (length - x - width < 6.0F) width = length - x;
       const int wall = random_.chance(0.3)
                            ? palette_.bricks()
-                           : palette_.plain(random_.uniform_f(0.38, 0.68), 0.2F, 0.16F, 50);
+                           : palette_.tinted_by_turns(
+                                 palette_.plain(random_.uniform_f(0.38, 0.68), 0.2F, 0.16F, 50),
+                                 {34.0F, 18.0F, 48.0F, 205.0F, 95.0F}, 0.22F);
       house({corner + x * along, along, width, 2 + random_.index(3), wall});
       x += width;
     }
@@ -268,9 +270,11 @@ class StreetBuilder {
 
   // Looks along x (or back); the windows slope.
   void car(const Vector3f& foot, float way, float scale) {
-    const int paint = palette_.plain(
-        random_.chance(0.5) ? random_.uniform_f(0.14, 0.3) : random_.uniform_f(0.45, 0.75), 0.12F,
-        0.03F, 55);
+    const int paint =
+        palette_.tinted_by_turns(palette_.plain(random_.chance(0.5) ? random_.uniform_f(0.14, 0.3)
+                                                                    : random_.uniform_f(0.45, 0.75),
+                                                0.12F, 0.03F, 55),
+                                 {0.0F, 216.0F, 210.0F, 45.0F, 140.0F}, 0.6F);
     const float h = scale * random_.uniform_f(0.95, 1.15);
     const auto at = [&](float x, float y, float z) -> Vector3f {
       return foot + Vector3f(way * x * scale, way * y, z * h);

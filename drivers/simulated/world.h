@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drivers/simulated/scene.h"
+#include "drivers/simulated/tint.h"
 
 namespace sparsight::simulated {
 
@@ -60,6 +61,10 @@ class World {
   float radiance(std::uint32_t panel, const Eigen::Vector3f& origin, const Sighting& sighting,
                  float distance) const;
   float sky_radiance(const Eigen::Vector3f& direction) const;
+  // Of the panel, or of the sky.
+  const Eigen::Vector3f& tint_of(std::uint32_t panel) const {
+    return panel == kNoPanel ? sky_tint_ : material_of(panel).tint;
+  }
 
   const Scene& scene() const { return scene_; }
   const PanelFrame& frame(std::uint32_t panel) const { return frames_[panel]; }
@@ -80,6 +85,7 @@ class World {
   float light_at(const PanelFrame& frame, const Eigen::Vector2f& at) const;
 
   Scene scene_;
+  const Eigen::Vector3f sky_tint_ = tint(212.0F, 0.22F);
   std::vector<PanelFrame> frames_;
   std::vector<float> lights_;
   std::unique_ptr<RTCDeviceTy, Release> device_;

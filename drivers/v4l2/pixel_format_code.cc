@@ -8,7 +8,7 @@
 namespace sparsight {
 namespace {
 
-constexpr std::array<PixelFormatCode, 12> kCodes{{
+constexpr std::array<PixelFormatCode, 13> kCodes{{
     {PixelFormat::kGrey8, V4L2_PIX_FMT_GREY, "GREY"},
     {PixelFormat::kGrey10, V4L2_PIX_FMT_Y10, "Y10"},
     {PixelFormat::kGrey12, V4L2_PIX_FMT_Y12, "Y12"},
@@ -20,6 +20,7 @@ constexpr std::array<PixelFormatCode, 12> kCodes{{
     {PixelFormat::kYuyv, V4L2_PIX_FMT_YUYV, "YUYV"},
     {PixelFormat::kUyvy, V4L2_PIX_FMT_UYVY, "UYVY"},
     {PixelFormat::kNv12, V4L2_PIX_FMT_NV12, "NV12"},
+    {PixelFormat::kRgb8, V4L2_PIX_FMT_RGB24, "RGB3"},
     {PixelFormat::kMjpeg, V4L2_PIX_FMT_MJPEG, "MJPG"},
 }};
 
@@ -53,6 +54,8 @@ int row_bytes(PixelFormat format, int width) {
     case PixelFormat::kYuyv:
     case PixelFormat::kUyvy:
       return 2 * width;
+    case PixelFormat::kRgb8:
+      return 3 * width;
     case PixelFormat::kMjpeg:
       return 0;
     default:

@@ -75,7 +75,7 @@ ConvertedImage from_bayer(const CameraFrame& frame, bool with_color) {
     for (int u = 0; u < frame.width; ++u) {
       const Rgb c = color_at(rows, mirrored(u - 1, frame.width), u, mirrored(u + 1, frame.width),
                              (v & 1) == red.v, (u & 1) == red.u);
-      *grey++ = static_cast<std::uint8_t>((77U * c[0] + 150U * c[1] + 29U * c[2] + 128U) >> 8U);
+      *grey++ = luma_of(c[0], c[1], c[2]);
       if (rgb == nullptr) continue;
       *rgb++ = c[0];
       *rgb++ = c[1];

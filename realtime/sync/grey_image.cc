@@ -34,6 +34,8 @@ Layout layout_of(const CameraFrame& frame) {
     case PixelFormat::kYuyv:
     case PixelFormat::kUyvy:
       return {2 * width, height, true, false};
+    case PixelFormat::kRgb8:
+      return {3 * width, height, false, false};
     case PixelFormat::kNv12:
       return {width, height + height / 2, true, true};
     case PixelFormat::kBayerRggb8:
@@ -101,6 +103,20 @@ GreyImage from_16_bits(const CameraFrame& frame, int bits) {
   return grey;
 }
 
+ConvertedImage from_rgb(const CameraFrame& frame, bool with_color) {
+  ConvertedImage image = black_image(frame.width, frame.height, with_color);
+  std::uint8_t* grey = image.grey.pixels.data();
+  const auto row_bytes = 3 * static_cast<std::ptrdiff_t>(frame.width);
+  for (int v = 0; v < frame.height; ++v) {
+    const std::uint8_t* row =
+        frame.bytes.data() + static_cast<std::ptrdiff_t>(v) * frame.stride_bytes;
+    if (with_color) std::copy_n(row, row_bytes, image.color->rgb.begin() + v * row_bytes);
+    for (const std::uint8_t* c = row; c != row + row_bytes; c += 3)
+      *grey++ = luma_of(c[0], c[1], c[2]);
+  }
+  return image;
+}
+
 }  // namespace
 
 ConvertedImage black_image(int width, int height, bool with_color) {
@@ -135,6 +151,8 @@ Result<ConvertedImage> convert_image(const CameraFrame& frame, bool with_color,
     case PixelFormat::kUyvy:
     case PixelFormat::kNv12:
       return from_yuv(frame, with_color);
+    case PixelFormat::kRgb8:
+      return from_rgb(frame, with_color);
     case PixelFormat::kMjpeg:
       break;
   }

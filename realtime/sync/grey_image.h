@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 
@@ -13,6 +14,11 @@ struct ConvertedImage {
   GreyImage grey;
   std::optional<ColorImage> color;  // of formats that have it, where asked for
 };
+
+// ITU-R BT.601: 0.299 R + 0.587 G + 0.114 B, in 1/256.
+constexpr std::uint8_t luma_of(unsigned red, unsigned green, unsigned blue) {
+  return static_cast<std::uint8_t>((77U * red + 150U * green + 29U * blue + 128U) >> 8U);
+}
 
 ConvertedImage black_image(int width, int height, bool with_color);
 

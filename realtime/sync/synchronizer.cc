@@ -5,8 +5,9 @@
 namespace sparsight {
 namespace {
 
-// Sixty years of uptime. A recording may claim any time; within this, differences of two fit.
-constexpr HostTime kEndOfTime{std::chrono::hours(24 * 365 * 60)};
+// 2090, for recordings on a time line that begins with 1970. A recording may claim any time; within
+// this, differences of two fit.
+constexpr HostTime kEndOfTime{std::chrono::hours(24 * 365 * 120)};
 
 }  // namespace
 
@@ -104,6 +105,7 @@ void Synchronizer::bundle_decided() {
     }
     ready_.push_back(bundler_.bundle(stamped, buffer_, clock_));
     ++counts_.frames_out;
+    if (ready_.back().frame.grey.empty()) ++counts_.frames_without_image;
     if (ready_.back().frame.sweep.returns.empty()) ++counts_.frames_without_returns;
   }
   decided_.clear();

@@ -42,6 +42,7 @@ struct SyncState {
   DecoderCounters packets;
   std::uint64_t events_refused = 0;  // at times that no host has
   std::uint64_t frames_out = 0;
+  std::uint64_t frames_without_image = 0;  // damaged, or not to be read
   std::uint64_t frames_without_returns = 0;
   std::uint64_t frames_not_taken = 0;  // dropped, as nobody took them in time
 };

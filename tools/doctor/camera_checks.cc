@@ -78,8 +78,8 @@ Check exposure(const CameraObservation& seen, const CameraConfig& config) {
 
 }  // namespace
 
-CameraObservation observe_camera(Camera& camera, std::chrono::nanoseconds duration,
-                                 const Now& now) {
+CameraObservation observe_camera(Camera& camera, std::chrono::nanoseconds duration, const Now& now,
+                                 const EventSink& sink) {
   CameraObservation seen;
   if (auto started = camera.start(); !started) {
     seen.error = started.error().message;
@@ -93,6 +93,7 @@ CameraObservation observe_camera(Camera& camera, std::chrono::nanoseconds durati
     if (!frame) continue;
     if (!first) first = frame->arrival;
     ++frames;
+    if (sink) sink(std::make_shared<const CameraFrame>(*frame));
     frame->bytes.clear();
     seen.last = std::move(*frame);
   }

@@ -7,6 +7,7 @@
 #include "hal/camera.h"
 #include "hal/rig_config.h"
 #include "tools/doctor/check.h"
+#include "tools/doctor/event_collector.h"
 
 namespace sparsight {
 
@@ -18,7 +19,8 @@ struct CameraObservation {
 };
 
 // Starts the camera, reads it for a while, stops it.
-CameraObservation observe_camera(Camera& camera, std::chrono::nanoseconds duration, const Now& now);
+CameraObservation observe_camera(Camera& camera, std::chrono::nanoseconds duration, const Now& now,
+                                 const EventSink& sink = {});
 
 // Found and format, rate, losses, exposure.
 std::vector<Check> camera_checks(const CameraObservation& seen, const CameraConfig& config);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hal/time.h"
@@ -21,6 +22,7 @@ struct Check {
   Verdict verdict = Verdict::kOk;
   std::string found;
   std::string fix;  // what to do; "" where nothing is to be done
+  std::vector<std::pair<std::string, double>> figures = {};  // of `found`, for machines
 };
 
 using Now = std::function<HostTime()>;

@@ -79,10 +79,12 @@ std::string doctor_text(const std::vector<Check>& checks) {
 std::string doctor_json(const std::vector<Check>& checks) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Check& check : checks) {
-    list.push_back({{"name", check.name},
-                    {"verdict", word_of(check.verdict)},
-                    {"found", check.found},
-                    {"fix", check.fix}});
+    nlohmann::ordered_json entry{{"name", check.name},
+                                 {"verdict", word_of(check.verdict)},
+                                 {"found", check.found},
+                                 {"fix", check.fix}};
+    for (const auto& [name, value] : check.figures) entry["figures"][name] = value;
+    list.push_back(std::move(entry));
   }
   const nlohmann::ordered_json report{{"fit", is_fit(checks)}, {"checks", list}};
   return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

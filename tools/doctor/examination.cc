@@ -9,6 +9,8 @@
 #include "drivers/vlp16/vlp16_decoder.h"
 #include "tools/doctor/camera_checks.h"
 #include "tools/doctor/disk_checks.h"
+#include "tools/doctor/event_collector.h"
+#include "tools/doctor/frame_examination.h"
 #include "tools/doctor/host_checks.h"
 #include "tools/doctor/lidar_checks.h"
 #include "tools/doctor/trigger_checks.h"
@@ -41,25 +43,30 @@ std::vector<Check> examine(RigDevices& devices, const RigConfig& rig,
                            const Examination& examination) {
   std::vector<std::future<std::vector<Check>>> running;
   const auto duration = examination.duration;
+  EventCollector collector;
+  const EventSink collect = [&](RigEvent event) { collector.add(std::move(event)); };
   if (devices.camera) {
     running.push_back(at_the_same_time([&] {
-      return camera_checks(observe_camera(*devices.camera, duration, HostClock::now), rig.camera);
+      return camera_checks(observe_camera(*devices.camera, duration, HostClock::now, collect),
+                           rig.camera);
     }));
   }
   if (devices.lidar && devices.decoder) {
     running.push_back(at_the_same_time([&] {
-      return lidar_checks(observe_lidar(*devices.lidar, *devices.decoder, duration, HostClock::now),
-                          rig);
+      return lidar_checks(
+          observe_lidar(*devices.lidar, *devices.decoder, duration, HostClock::now, collect), rig);
     }));
   }
   if (devices.trigger) {
     running.push_back(at_the_same_time([&] {
-      return trigger_checks(observe_trigger(*devices.trigger, duration, HostClock::now), rig);
+      return trigger_checks(observe_trigger(*devices.trigger, duration, HostClock::now, collect),
+                            rig);
     }));
   }
   std::vector<Check> checks;
   for (auto& device : running) append(checks, device.get());
   checks.push_back(calibration_check(rig.calibration));
+  append(checks, examine_events(collector.take(), rig, examination.overlay));
   // After the devices: writing would disturb them.
   append(checks, disk_checks(observe_disk(examination.folder, examination.disk_megabytes), rig));
   append(checks, privilege_checks(observe_privileges()));

@@ -29,9 +29,11 @@ struct Examination {
   std::chrono::nanoseconds duration = std::chrono::seconds(3);
   std::filesystem::path folder = ".";  // where recordings would go
   int disk_megabytes = 64;
+  std::filesystem::path overlay;  // picture of the LiDAR on the image; "" for none
 };
 
-// All devices are watched at the same time, each by a thread.
+// All devices are watched at the same time, each by a thread; then what they delivered is put
+// together as it would be in a session.
 std::vector<Check> examine(RigDevices& devices, const RigConfig& rig,
                            const Examination& examination);
 

@@ -95,7 +95,8 @@ Check pps(const LidarObservation& seen, const TriggerConfig& trigger) {
 }  // namespace
 
 LidarObservation observe_lidar(Lidar& lidar, LidarDecoder& decoder,
-                               std::chrono::nanoseconds duration, const Now& now) {
+                               std::chrono::nanoseconds duration, const Now& now,
+                               const EventSink& sink) {
   LidarObservation seen;
   if (auto started = lidar.start(); !started) {
     seen.error = started.error().message;
@@ -109,6 +110,7 @@ LidarObservation observe_lidar(Lidar& lidar, LidarDecoder& decoder,
   for (HostTime time = now(); time < end; time = now()) {
     const auto message = lidar.read(end - time);
     if (!message) continue;
+    if (sink) std::visit([&](const auto& packet) { sink(packet); }, *message);
     if (const auto* packet = std::get_if<LidarPacket>(&*message)) {
       if (!first) first = packet->arrival;
       last = packet->arrival;

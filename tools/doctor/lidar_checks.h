@@ -7,6 +7,7 @@
 #include "hal/lidar.h"
 #include "hal/rig_config.h"
 #include "tools/doctor/check.h"
+#include "tools/doctor/event_collector.h"
 
 namespace sparsight {
 
@@ -20,7 +21,8 @@ struct LidarObservation {
 
 // Starts the LiDAR, reads and decodes it for a while, stops it.
 LidarObservation observe_lidar(Lidar& lidar, LidarDecoder& decoder,
-                               std::chrono::nanoseconds duration, const Now& now);
+                               std::chrono::nanoseconds duration, const Now& now,
+                               const EventSink& sink = {});
 
 // Found and packets per second, losses, PPS.
 std::vector<Check> lidar_checks(const LidarObservation& seen, const RigConfig& rig);

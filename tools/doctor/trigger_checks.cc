@@ -56,7 +56,7 @@ Check pps(const TriggerObservation& seen, unsigned line) {
 }  // namespace
 
 TriggerObservation observe_trigger(TriggerLine& line, std::chrono::nanoseconds duration,
-                                   const Now& now) {
+                                   const Now& now, const EventSink& sink) {
   TriggerObservation seen;
   if (auto started = line.start(); !started) {
     seen.error = started.error().message;
@@ -66,6 +66,7 @@ TriggerObservation observe_trigger(TriggerLine& line, std::chrono::nanoseconds d
   const HostTime end = begin + duration;
   for (HostTime time = begin; time < end; time = now()) {
     const auto edge = line.read(end - time);
+    if (edge && sink) sink(*edge);
     if (!edge || !edge->rising) continue;
     ++(edge->line == EdgeLine::kPps ? seen.pulses : seen.exposures);
   }

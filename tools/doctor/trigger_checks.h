@@ -6,6 +6,7 @@
 #include "hal/rig_config.h"
 #include "hal/trigger_line.h"
 #include "tools/doctor/check.h"
+#include "tools/doctor/event_collector.h"
 
 namespace sparsight {
 
@@ -19,7 +20,7 @@ struct TriggerObservation {
 
 // Starts the lines, reads them for a while, stops them.
 TriggerObservation observe_trigger(TriggerLine& line, std::chrono::nanoseconds duration,
-                                   const Now& now);
+                                   const Now& now, const EventSink& sink = {});
 
 // Exposure edges per second, losses, and PPS where it is wired.
 std::vector<Check> trigger_checks(const TriggerObservation& seen, const RigConfig& rig);

@@ -47,7 +47,9 @@ std::optional<fs::path> find_ground_truth(const fs::path& source, int camera) {
   const fs::path odometry =
       folder.parent_path().parent_path() / "poses" / (folder.filename().string() + ".txt");
   const fs::path inside = folder / "poses_camera_0.txt";
+  const fs::path of_capture = folder / "ground_truth.tum";
   if (fs::is_regular_file(inside, error)) return inside;
+  if (fs::is_regular_file(of_capture, error)) return of_capture;
   if (fs::is_regular_file(odometry, error)) return odometry;
   return std::nullopt;
 }

@@ -27,8 +27,8 @@ struct OpenedSource {
 // A recording of a rig, by its name.
 bool is_recording(const std::filesystem::path& source);
 
-// Opens whatever it is given: a recording (.mcap) with the rig's description in it, or a data set's
-// folder.
+// Opens whatever it is given: a recording (.mcap) with the rig's description in it, a folder with a
+// capture and images, or a data set's folder.
 Result<OpenedSource> open_source(const std::filesystem::path& source, const SourceOptions& options);
 
 }  // namespace sparsight

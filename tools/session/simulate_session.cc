@@ -7,9 +7,12 @@
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "drivers/recording/recording_writer.h"
+#include "realtime/sync/grey_image.h"
 #include "tools/configuration/rig_file.h"
 #include "tools/session/interrupt.h"
 
@@ -68,11 +71,17 @@ class SimulationOutput {
 
  private:
   Result<void> draw(const CameraFrame& frame) const {
-    const cv::Mat grey(frame.height, frame.width, CV_8U,
-                       const_cast<std::uint8_t*>(frame.bytes.data()));
+    auto image = convert_image(frame, session_.options.color, {});
+    if (!image) return tl::unexpected(image.error());
     const std::string path =
         fmt::format("{}/{}_{:06}.png", session_.frames, frame.epoch, frame.sequence);
-    if (cv::imwrite(path, grey)) return {};
+    cv::Mat pixels(frame.height, frame.width, CV_8U, image->grey.pixels.data());
+    if (image->color) {
+      std::vector<std::uint8_t>& rgb = image->color->rgb;
+      for (std::size_t i = 0; i < rgb.size(); i += 3) std::swap(rgb[i], rgb[i + 2]);
+      pixels = cv::Mat(frame.height, frame.width, CV_8UC3, rgb.data());
+    }
+    if (cv::imwrite(path, pixels)) return {};
     return fail(ErrorCode::kUnreadable, path + ": cannot be written; is there space?");
   }
 

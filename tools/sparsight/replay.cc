@@ -40,8 +40,10 @@ void add_replay(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "replay", "Replay a recording through the odometry; write trajectory, map and report");
   command
-      ->add_option("SOURCE", options->source,
-                   "recording (.mcap), KITTI odometry sequence or KITTI raw drive folder")
+      ->add_option(
+          "SOURCE", options->source,
+          "recording (.mcap), KITTI odometry sequence, KITTI raw drive, or a folder with a "
+          "capture (lidar.pcap, images/, times.txt, rig.toml)")
       ->required();
   command->add_option("--rays", options->rays, "keep N of the scan's rings, evenly")
       ->type_name("N")

@@ -119,6 +119,7 @@ void add_look(CLI::App& command, SimulateArguments& arguments) {
       .add_option("--exposure-drift", options.exposure_drift,
                   "Brightness wanders by this share; 0.25 is a quarter up and down")
       ->check(CLI::Range(0.0, 0.9));
+  command.add_flag("--color", options.color, "A colour camera: frames with a Bayer pattern (RGGB)");
   command.add_flag("--motion-blur", options.motion_blur,
                    "Blur by motion; takes five times as long");
   command.add_flag("--rectified", arguments.rectified, "A lens without distortion");

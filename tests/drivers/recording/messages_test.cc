@@ -98,7 +98,7 @@ TEST(StateMessages, RefuseChoicesThatDoNotExist) {
   CameraFrame frame;
   append_frame_info(frame, info);
   EXPECT_TRUE(read_frame_info(info, frame));
-  info[4 + 33] = 12;
+  info[4 + 33] = 13;
   EXPECT_FALSE(read_frame_info(info, frame));
 }
 

@@ -16,7 +16,7 @@ constexpr VideoFormat kTwelve{V4L2_PIX_FMT_Y12, 800, 600, 1600, 960000};
 constexpr VideoFormat kYuyv{V4L2_PIX_FMT_YUYV, 800, 600, 1600, 960000};
 constexpr VideoFormat kBayer{V4L2_PIX_FMT_SBGGR8, 800, 600, 800, 480000};
 constexpr VideoFormat kJpeg{V4L2_PIX_FMT_MJPEG, 800, 600, 0, 500000};
-constexpr VideoFormat kUnknown{V4L2_PIX_FMT_RGB24, 800, 600, 2400, 1440000};
+constexpr VideoFormat kUnknown{V4L2_PIX_FMT_RGB565, 800, 600, 2400, 1440000};
 
 class FormatAgreementTest : public ::testing::Test {
  protected:
@@ -50,7 +50,7 @@ TEST_F(FormatAgreementTest, TakesTheOneAskedForOrNone) {
   config_.format = "YUYV";
   EXPECT_EQ(chosen({kGrey, kYuyv}), PixelFormat::kYuyv);
   EXPECT_EQ(refusal({kGrey, kUnknown}),
-            "/dev/video0: [camera] format = \"YUYV\" is not among what it offers (GREY, RGB3)");
+            "/dev/video0: [camera] format = \"YUYV\" is not among what it offers (GREY, RGBP)");
 }
 
 TEST_F(FormatAgreementTest, PassesByAFormatThatComesAtAnotherSize) {

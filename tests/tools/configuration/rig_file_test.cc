@@ -207,7 +207,7 @@ TEST(RigFile, TextsAreChecked) {
             "192.168.1.201, or \"\" for any");
   EXPECT_EQ(rig_error("[lidar]\nbind_address = \"\"\n"),
             "my.toml:2: [lidar] bind_address = '': must be an IPv4 address such as 192.168.1.201");
-  EXPECT_THAT(rig_error("[camera]\nformat = \"RGB3\"\n"),
+  EXPECT_THAT(rig_error("[camera]\nformat = \"H264\"\n"),
               HasSubstr("must be one of \"auto\", \"GREY\""));
   EXPECT_EQ(rig_error("[camera]\ndevice = 0\n"),
             "my.toml:2: [camera] device = 0: must be a text in quotes");

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tests/drivers/datasets/made_capture_folder.h"
 #include "tools/sparsight/subcommands.h"
 
 namespace sparsight {
@@ -58,6 +59,18 @@ TEST(DoctorCommand, PrintsJsonForMachines) {
                                   ::testing::TempDir());
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(nlohmann::json::parse(outcome.out).at("fit"), false);
+}
+
+TEST(DoctorCommand, LooksAtASourceInPlaceOfTheRig) {
+  const testing::MadeCaptureFolder made;
+  const auto outcome =
+      run_doctor(made.folder.string() + " --json --overlay " + (made.folder / "o.png").string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto checks = nlohmann::json::parse(outcome.out).at("checks");
+  ASSERT_EQ(checks.size(), 2U);
+  EXPECT_EQ(checks[1].at("name"), "lidar on image");
+  EXPECT_EQ(checks[1].at("verdict"), "warn") << "a round wall has no edges";
+  EXPECT_EQ(run_doctor("/no/such.mcap").exit_code, 1);
 }
 
 TEST(DoctorCommand, ARigFileWithErrorsIsRefused) {
