@@ -1,0 +1,162 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "tools/configuration/profile.h"
+#include "tools/session/live_session.h"
+#include "tools/session/progress.h"
+#include "tools/session/session_folder.h"
+#include "tools/session/session_text.h"
+#include "tools/session/simulate_session.h"
+#include "tools/sparsight/subcommands.h"
+
+namespace sparsight {
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kFailed = 1;
+constexpr int kUsage = 2;
+
+const std::map<std::string, SimulatedScene> kScenes{{"corridor", SimulatedScene::kCorridor},
+                                                    {"hall", SimulatedScene::kHall},
+                                                    {"street", SimulatedScene::kStreet}};
+
+struct RunArguments {
+  std::string rig;
+  std::string play;
+  std::string simulated;
+  std::optional<std::filesystem::path> output;
+  double seconds = 0.0;
+  bool no_recording = false;
+  bool no_realtime = false;
+  LiveOptions options;
+};
+
+int fail_with(const Error& error, int code) {
+  fmt::print(stderr, "sparsight: {}\n", error.message);
+  return code;
+}
+
+// What was recorded is never written over.
+Result<std::filesystem::path> new_folder(const RunArguments& arguments,
+                                         const std::filesystem::path& source) {
+  std::error_code error;
+  if (arguments.output && std::filesystem::exists(*arguments.output / "recording.mcap", error)) {
+    return fail(ErrorCode::kUnreadable,
+                fmt::format("{}: holds a recording; give --output another folder",
+                            arguments.output->string()));
+  }
+  return claim_session_folder(arguments.output, source, std::nullopt);
+}
+
+// Two cores do not render as fast as time goes: the scene is made first, then played.
+Result<std::filesystem::path> simulate_into(const std::filesystem::path& folder,
+                                            const RunArguments& arguments) {
+  SimulateSession simulation;
+  simulation.options.scene = kScenes.at(arguments.simulated);
+  const double seconds = arguments.seconds > 0.0 ? arguments.seconds : 20.0;
+  simulation.options.duration = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * seconds));
+  simulation.output = (folder / "simulated.mcap").string();
+  const auto style = Progress::style_for(stderr, arguments.options.quiet);
+  return run_simulation(simulation, style).map([&](const std::string&) {
+    return std::filesystem::path(simulation.output);
+  });
+}
+
+Result<LiveRig> open(const RunArguments& arguments) {
+  if (!arguments.simulated.empty()) {
+    return simulate_into(arguments.options.folder, arguments)
+        .and_then([](const std::filesystem::path& made) { return play_recording(made, ""); });
+  }
+  if (!arguments.play.empty()) return play_recording(arguments.play, arguments.rig);
+  return open_rig(arguments.rig);
+}
+
+int run(RunArguments arguments) {
+  LiveOptions& options = arguments.options;
+  const int sources = !arguments.play.empty() + !arguments.simulated.empty();
+  if (sources > 1 || (sources == 0 && arguments.rig.empty())) {
+    fmt::print(stderr, "sparsight: give --rig FILE, or --play RECORDING, or --simulated SCENE\n");
+    return kUsage;
+  }
+  const auto config = load_profile(options.profile_name);
+  if (!config) return fail_with(config.error(), kUsage);
+  options.config = *config;
+  options.recording = !arguments.no_recording;
+  options.realtime = !arguments.no_realtime;
+  if (arguments.seconds > 0.0) {
+    options.duration = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * arguments.seconds));
+  }
+  const std::string source = !arguments.play.empty()        ? arguments.play
+                             : !arguments.simulated.empty() ? arguments.simulated
+                                                            : arguments.rig;
+  const auto folder = new_folder(arguments, source);
+  if (!folder) return fail_with(folder.error(), kFailed);
+  options.folder = *folder;
+  auto rig = open(arguments);
+  if (!rig) return fail_with(rig.error(), kFailed);
+  const auto result = run_live(std::move(*rig), options);
+  if (!result) return fail_with(result.error(), kFailed);
+  if (!options.quiet && !options.json) {
+    fmt::print("{}", session_text(result->session, options.folder));
+  }
+  return result->failure ? fail_with(*result->failure, kFailed) : kDone;
+}
+
+void add_common(CLI::App& command, RunArguments& arguments) {
+  LiveOptions& options = arguments.options;
+  command.add_option("--rig", arguments.rig, "rig file, such as config/rig/handheld.toml")
+      ->type_name("FILE");
+  command
+      .add_option("--play", arguments.play,
+                  "instead of devices: a recording as if it happened now, with its own timing")
+      ->type_name("RECORDING");
+  command
+      .add_option("--output", arguments.output,
+                  "session folder (default: a new ./session-NAME); the recording goes there too")
+      ->type_name("DIR");
+  command.add_option("--seconds", arguments.seconds, "end after so long (default: when asked to)")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber);
+  command.add_flag("--no-realtime", arguments.no_realtime,
+                   "do not ask for real-time scheduling and locked memory");
+  command.add_flag("--json", options.json, "a line of JSON every second, for machines");
+  command.add_flag("--quiet", options.quiet, "no state every second, no summary");
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command = app.add_subcommand(
+      "run", "Run on the rig: track, map and record, until asked to end (Ctrl-C, SIGTERM)");
+  add_common(*command, *arguments);
+  command
+      ->add_option("--simulated", arguments->simulated,
+                   "instead of devices: make a scene (corridor, hall or street) and play it")
+      ->type_name("SCENE")
+      ->check(CLI::IsMember({"corridor", "hall", "street"}));
+  command
+      ->add_option("--profile", arguments->options.profile_name, "paper, default, or a TOML file")
+      ->type_name("NAME|FILE")
+      ->capture_default_str();
+  command->add_flag("--no-recording", arguments->no_recording,
+                    "do not record what the rig delivers");
+  command->add_flag("!--no-map", arguments->options.map, "do not write map.ply");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_record(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<RunArguments>();
+  arguments->options.odometry = false;
+  CLI::App* command =
+      app.add_subcommand("record", "Record what the rig delivers, without tracking it");
+  add_common(*command, *arguments);
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace sparsight
