@@ -1,6 +1,7 @@
 #include "realtime/pipeline/stage_thread.h"
 
 #include <algorithm>
+#include <exception>
 
 namespace sparsight {
 
@@ -20,7 +21,12 @@ void StageThread::start(std::function<void()> run) {
   running_ = true;
   thread_ = std::thread([this, run = std::move(run)] {
     if (const auto remark = set_up_thread(settings_)) remarks_.add(*remark);
-    run();
+    try {
+      run();
+    } catch (const std::exception& error) {
+      // The other stages go on, the recording among them; the watchdog sees that this one does not.
+      remarks_.add("the thread " + settings_.name + " broke off: " + error.what());
+    }
     running_ = false;
   });
 }

@@ -43,10 +43,11 @@ bool TrackingRunner::tick() {
 }
 
 bool TrackingRunner::track_waiting(HostTime due) {
+  // What comes meanwhile is the next tick's: a round has an end however slow it is.
+  std::size_t waiting = shared_.to_tracking.size();
+  const bool any = waiting > 0;
   LiveFrame* frame = nullptr;
-  bool any = false;
-  while (shared_.to_tracking.consumer().try_pop(frame)) {
-    any = true;
+  for (; waiting > 0 && shared_.to_tracking.consumer().try_pop(frame); --waiting) {
     last_ready_ = frame->ready;
     track(*frame);
   }

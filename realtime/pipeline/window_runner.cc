@@ -34,13 +34,13 @@ void WindowRunner::run(StageThread& thread) {
 void WindowRunner::add(LiveFrame& frame) {
   const HostTime begun = clock_.now();
   if (begun - frame.handed_over > kPatience) LiveShared::count(shared_.counters.window_behind);
-  if (shared_.probe) shared_.probe(LiveStage::kWindow);
   const std::uint64_t sequence = frame.frame.sequence;
   const bool accepted = window_.accept(frame.frame, frame.tracked);
   shared_.free_from_window.producer().try_push(&frame);
   publish();
   if (accepted) {
     LiveShared::count(shared_.counters.keyframes);
+    if (shared_.probe) shared_.probe(LiveStage::kWindow);
     const bool shorter = shared_.sheds(Shed::kWindowIterations);
     if (shorter) LiveShared::count(shared_.counters.windows_shortened);
     window_.optimize(shorter ? std::optional(fewer_iterations_) : std::nullopt);
