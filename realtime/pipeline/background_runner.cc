@@ -5,7 +5,7 @@
 namespace sparsight {
 namespace {
 
-constexpr std::chrono::nanoseconds kLookAgain{10'000'000};
+constexpr std::chrono::nanoseconds kBackgroundRound{10'000'000};
 constexpr std::size_t kMostWaiting = 3;  // keyframes; with more it is behind
 
 }  // namespace
@@ -23,7 +23,7 @@ void BackgroundRunner::run(StageThread& thread) {
       continue;
     }
     if (last) return;
-    clock_.sleep_until(clock_.now() + kLookAgain);
+    clock_.sleep_until(clock_.now() + kBackgroundRound);
   }
 }
 

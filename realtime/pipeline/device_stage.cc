@@ -11,8 +11,8 @@ namespace {
 using namespace std::chrono_literals;
 
 // How long a device is waited for before the thread looks around; three periods of the camera.
-constexpr auto kPatience = 100ms;
-constexpr int kRoundsToRetry = 10;  // of kPatience
+constexpr auto kDevicePatience = 100ms;
+constexpr int kRoundsToRetry = 10;  // of kDevicePatience
 
 void count(std::atomic<std::uint64_t>& counter) { counter.fetch_add(1, std::memory_order_relaxed); }
 
@@ -42,7 +42,7 @@ void DeviceStage::run() {
   bool started = begin();
   for (int rounds = 0; !thread_.stopping(); thread_.beat()) {
     if (!started) {
-      std::this_thread::sleep_for(kPatience);
+      std::this_thread::sleep_for(kDevicePatience);
       if (++rounds % kRoundsToRetry == 0) started = begin();
       continue;
     }
@@ -93,7 +93,7 @@ DeviceStatus DeviceStage::status() const {
 DeviceStage::Device stage_device(std::shared_ptr<Camera> camera) {
   return stage_device_of(std::move(camera), DeviceKind::kCamera,
                          [](Camera& device) -> std::optional<RigEvent> {
-                           auto frame = device.read(kPatience);
+                           auto frame = device.read(kDevicePatience);
                            if (!frame) return std::nullopt;
                            return std::make_shared<const CameraFrame>(std::move(*frame));
                          });
@@ -102,7 +102,7 @@ DeviceStage::Device stage_device(std::shared_ptr<Camera> camera) {
 DeviceStage::Device stage_device(std::shared_ptr<Lidar> lidar) {
   return stage_device_of(
       std::move(lidar), DeviceKind::kLidar, [](Lidar& device) -> std::optional<RigEvent> {
-        const auto message = device.read(kPatience);
+        const auto message = device.read(kDevicePatience);
         if (!message) return std::nullopt;
         return std::visit([](const auto& packet) { return RigEvent(packet); }, *message);
       });
@@ -111,7 +111,7 @@ DeviceStage::Device stage_device(std::shared_ptr<Lidar> lidar) {
 DeviceStage::Device stage_device(std::shared_ptr<TriggerLine> line) {
   return stage_device_of(std::move(line), DeviceKind::kTrigger,
                          [](TriggerLine& device) -> std::optional<RigEvent> {
-                           const auto edge = device.read(kPatience);
+                           const auto edge = device.read(kDevicePatience);
                            if (!edge) return std::nullopt;
                            return RigEvent(*edge);
                          });

@@ -5,8 +5,8 @@
 namespace sparsight {
 namespace {
 
-constexpr std::chrono::nanoseconds kLookAgain{5'000'000};
-constexpr std::chrono::nanoseconds kPatience{300'000'000};  // then the journal is behind
+constexpr std::chrono::nanoseconds kJournalRound{5'000'000};
+constexpr std::chrono::nanoseconds kJournalPatience{300'000'000};  // then the journal is behind
 // So long a keyframe's row waits for its window's time: half a second of frames.
 constexpr std::size_t kMostRowsHeld = 15;
 
@@ -20,7 +20,7 @@ void JournalRunner::run(StageThread& thread) {
     take_records();
     write_rows(last);
     if (last) return;
-    clock_.sleep_until(clock_.now() + kLookAgain);
+    clock_.sleep_until(clock_.now() + kJournalRound);
   }
 }
 
@@ -37,7 +37,7 @@ void JournalRunner::take_records() {
   LiveRecord record;
   bool late = false;
   while (shared_.records.consumer().try_pop(record)) {
-    late = late || clock_.now() - record.done > kPatience;
+    late = late || clock_.now() - record.done > kJournalPatience;
     preview(record);
     rows_.push_back(record);
     trajectory_.add(record.sequence, record.exposure, record.outcome);

@@ -7,7 +7,7 @@
 namespace sparsight {
 namespace {
 
-constexpr std::chrono::nanoseconds kPeriod{1'000'000};
+constexpr std::chrono::nanoseconds kSyncRound{1'000'000};
 constexpr std::chrono::nanoseconds kPublishPeriod{100'000'000};
 
 }  // namespace
@@ -18,7 +18,7 @@ SyncRunner::SyncRunner(std::array<SpscQueue<RigEvent>*, kDevices> devices,
     : devices_(devices), synchronizer_(std::move(synchronizer)), shared_(shared), clock_(clock) {}
 
 void SyncRunner::run(StageThread& thread) {
-  FixedRateLoop loop(clock_, kPeriod, clock_.now() + kPeriod);
+  FixedRateLoop loop(clock_, kSyncRound, clock_.now() + kSyncRound);
   for (;;) {
     const bool last = thread.stopping();
     const LoopTick tick = loop.wait();
@@ -72,7 +72,7 @@ void SyncRunner::forward() {
     }
     LiveFrame* frame = free_frame();
     while (frame == nullptr && draining_) {
-      clock_.sleep_until(clock_.now() + kPeriod);
+      clock_.sleep_until(clock_.now() + kSyncRound);
       frame = free_frame();
     }
     if (frame == nullptr) {

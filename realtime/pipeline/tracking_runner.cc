@@ -4,7 +4,7 @@ namespace sparsight {
 namespace {
 
 // A frame that is not there yet is looked for so often, for so much of the period.
-constexpr std::chrono::nanoseconds kLookAgain{500'000};
+constexpr std::chrono::nanoseconds kFrameLookAgain{500'000};
 constexpr int kWaitingShare = 4;
 
 }  // namespace
@@ -33,8 +33,8 @@ bool TrackingRunner::tick() {
   }
   bool any = track_waiting(tick.due);
   const HostTime patience = tick.due + loop_.period() / kWaitingShare;
-  while (!any && clock_.now() + kLookAgain < patience) {
-    clock_.sleep_until(clock_.now() + kLookAgain);
+  while (!any && clock_.now() + kFrameLookAgain < patience) {
+    clock_.sleep_until(clock_.now() + kFrameLookAgain);
     any = track_waiting(tick.due);
   }
   loop_.shift(any ? phase_.observe(last_ready_, loop_.next()) : phase_.coast());

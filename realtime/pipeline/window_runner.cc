@@ -5,9 +5,9 @@
 namespace sparsight {
 namespace {
 
-constexpr std::chrono::nanoseconds kLookAgain{2'000'000};
+constexpr std::chrono::nanoseconds kWindowRound{2'000'000};
 // A frame that is to become a keyframe and waits longer says that the window is behind.
-constexpr std::chrono::nanoseconds kPatience{100'000'000};
+constexpr std::chrono::nanoseconds kWindowPatience{100'000'000};
 
 }  // namespace
 
@@ -22,18 +22,19 @@ void WindowRunner::run(StageThread& thread) {
     }
     pass_on_retired();
     if (last) break;
-    clock_.sleep_until(clock_.now() + kLookAgain);
+    clock_.sleep_until(clock_.now() + kWindowRound);
   }
   window_.finish();
   for (pass_on_retired(); !retired_.empty(); pass_on_retired()) {
     thread.beat();
-    clock_.sleep_until(clock_.now() + kLookAgain);
+    clock_.sleep_until(clock_.now() + kWindowRound);
   }
 }
 
 void WindowRunner::add(LiveFrame& frame) {
   const HostTime begun = clock_.now();
-  if (begun - frame.handed_over > kPatience) LiveShared::count(shared_.counters.window_behind);
+  if (begun - frame.handed_over > kWindowPatience)
+    LiveShared::count(shared_.counters.window_behind);
   const std::uint64_t sequence = frame.frame.sequence;
   const bool accepted = window_.accept(frame.frame, frame.tracked);
   shared_.free_from_window.producer().try_push(&frame);

@@ -17,15 +17,15 @@
 namespace sparsight {
 namespace {
 
-constexpr int kDone = 0;
-constexpr int kFailed = 1;
-constexpr int kUsage = 2;
+constexpr int kRunDone = 0;
+constexpr int kRunFailed = 1;
+constexpr int kRunUsage = 2;
 
-const std::map<std::string, SimulatedScene> kScenes{{"corridor", SimulatedScene::kCorridor},
-                                                    {"hall", SimulatedScene::kHall},
-                                                    {"street", SimulatedScene::kStreet}};
+const std::map<std::string, SimulatedScene> kPlayedScenes{{"corridor", SimulatedScene::kCorridor},
+                                                          {"hall", SimulatedScene::kHall},
+                                                          {"street", SimulatedScene::kStreet}};
 
-struct RunArguments {
+struct LiveArguments {
   std::string rig;
   std::string play;
   std::string simulated;
@@ -36,13 +36,13 @@ struct RunArguments {
   LiveOptions options;
 };
 
-int fail_with(const Error& error, int code) {
+int fail_run(const Error& error, int code) {
   fmt::print(stderr, "sparsight: {}\n", error.message);
   return code;
 }
 
 // What was recorded is never written over.
-Result<std::filesystem::path> new_folder(const RunArguments& arguments,
+Result<std::filesystem::path> new_folder(const LiveArguments& arguments,
                                          const std::filesystem::path& source) {
   std::error_code error;
   if (arguments.output && std::filesystem::exists(*arguments.output / "recording.mcap", error)) {
@@ -55,9 +55,9 @@ Result<std::filesystem::path> new_folder(const RunArguments& arguments,
 
 // Two cores do not render as fast as time goes: the scene is made first, then played.
 Result<std::filesystem::path> simulate_into(const std::filesystem::path& folder,
-                                            const RunArguments& arguments) {
+                                            const LiveArguments& arguments) {
   SimulateSession simulation;
-  simulation.options.scene = kScenes.at(arguments.simulated);
+  simulation.options.scene = kPlayedScenes.at(arguments.simulated);
   const double seconds = arguments.seconds > 0.0 ? arguments.seconds : 20.0;
   simulation.options.duration = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * seconds));
   simulation.output = (folder / "simulated.mcap").string();
@@ -67,24 +67,15 @@ Result<std::filesystem::path> simulate_into(const std::filesystem::path& folder,
   });
 }
 
-Result<LiveRig> open(const RunArguments& arguments) {
-  if (!arguments.simulated.empty()) {
-    return simulate_into(arguments.options.folder, arguments)
-        .and_then([](const std::filesystem::path& made) { return play_recording(made, ""); });
-  }
-  if (!arguments.play.empty()) return play_recording(arguments.play, arguments.rig);
-  return open_rig(arguments.rig);
-}
-
-int run(RunArguments arguments) {
+int run_rig(LiveArguments arguments) {
   LiveOptions& options = arguments.options;
   const int sources = !arguments.play.empty() + !arguments.simulated.empty();
   if (sources > 1 || (sources == 0 && arguments.rig.empty())) {
     fmt::print(stderr, "sparsight: give --rig FILE, or --play RECORDING, or --simulated SCENE\n");
-    return kUsage;
+    return kRunUsage;
   }
   const auto config = load_profile(options.profile_name);
-  if (!config) return fail_with(config.error(), kUsage);
+  if (!config) return fail_run(config.error(), kRunUsage);
   options.config = *config;
   options.recording = !arguments.no_recording;
   options.realtime = !arguments.no_realtime;
@@ -94,20 +85,33 @@ int run(RunArguments arguments) {
   const std::string source = !arguments.play.empty()        ? arguments.play
                              : !arguments.simulated.empty() ? arguments.simulated
                                                             : arguments.rig;
+  // A scene is made into the folder; anything else must be there before a folder is made for it.
+  std::optional<LiveRig> rig;
+  if (arguments.simulated.empty()) {
+    auto opened = arguments.play.empty() ? open_rig(arguments.rig)
+                                         : play_recording(arguments.play, arguments.rig);
+    if (!opened) return fail_run(opened.error(), kRunFailed);
+    rig = std::move(*opened);
+  }
   const auto folder = new_folder(arguments, source);
-  if (!folder) return fail_with(folder.error(), kFailed);
+  if (!folder) return fail_run(folder.error(), kRunFailed);
   options.folder = *folder;
-  auto rig = open(arguments);
-  if (!rig) return fail_with(rig.error(), kFailed);
+  if (!rig) {
+    auto made = simulate_into(options.folder, arguments);
+    if (!made) return fail_run(made.error(), kRunFailed);
+    auto opened = play_recording(*made, "");
+    if (!opened) return fail_run(opened.error(), kRunFailed);
+    rig = std::move(*opened);
+  }
   const auto result = run_live(std::move(*rig), options);
-  if (!result) return fail_with(result.error(), kFailed);
+  if (!result) return fail_run(result.error(), kRunFailed);
   if (!options.quiet && !options.json) {
     fmt::print("{}", session_text(result->session, options.folder));
   }
-  return result->failure ? fail_with(*result->failure, kFailed) : kDone;
+  return result->failure ? fail_run(*result->failure, kRunFailed) : kRunDone;
 }
 
-void add_common(CLI::App& command, RunArguments& arguments) {
+void add_common(CLI::App& command, LiveArguments& arguments) {
   LiveOptions& options = arguments.options;
   command.add_option("--rig", arguments.rig, "rig file, such as config/rig/handheld.toml")
       ->type_name("FILE");
@@ -131,7 +135,7 @@ void add_common(CLI::App& command, RunArguments& arguments) {
 }  // namespace
 
 void add_run(CLI::App& app, int& exit_code) {
-  auto arguments = std::make_shared<RunArguments>();
+  auto arguments = std::make_shared<LiveArguments>();
   CLI::App* command = app.add_subcommand(
       "run", "Run on the rig: track, map and record, until asked to end (Ctrl-C, SIGTERM)");
   add_common(*command, *arguments);
@@ -147,16 +151,16 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_flag("--no-recording", arguments->no_recording,
                     "do not record what the rig delivers");
   command->add_flag("!--no-map", arguments->options.map, "do not write map.ply");
-  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+  command->callback([arguments, &exit_code] { exit_code = run_rig(*arguments); });
 }
 
 void add_record(CLI::App& app, int& exit_code) {
-  auto arguments = std::make_shared<RunArguments>();
+  auto arguments = std::make_shared<LiveArguments>();
   arguments->options.odometry = false;
   CLI::App* command =
       app.add_subcommand("record", "Record what the rig delivers, without tracking it");
   add_common(*command, *arguments);
-  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+  command->callback([arguments, &exit_code] { exit_code = run_rig(*arguments); });
 }
 
 }  // namespace sparsight
