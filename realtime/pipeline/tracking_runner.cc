@@ -46,15 +46,15 @@ bool TrackingRunner::track_waiting(HostTime due) {
   // What comes meanwhile is the next tick's: a round has an end however slow it is.
   std::size_t waiting = shared_.to_tracking.size();
   const bool any = waiting > 0;
+  bool late = false;
   LiveFrame* frame = nullptr;
   for (; waiting > 0 && shared_.to_tracking.consumer().try_pop(frame); --waiting) {
     last_ready_ = frame->ready;
     track(*frame);
+    late = clock_.now() > due + loop_.period();
+    if (late) LiveShared::count(shared_.counters.tracking_behind);
   }
-  if (any && clock_.now() > due + loop_.period()) {
-    LiveShared::count(shared_.counters.deadlines_missed);
-    LiveShared::count(shared_.counters.tracking_behind);
-  }
+  if (late) LiveShared::count(shared_.counters.deadlines_missed);
   return any;
 }
 

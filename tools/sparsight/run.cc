@@ -67,42 +67,53 @@ Result<std::filesystem::path> simulate_into(const std::filesystem::path& folder,
   });
 }
 
-int run_rig(LiveArguments arguments) {
+// A scene is made into the folder; anything else must be there before a folder is made for it.
+Result<LiveRig> open_into_folder(LiveArguments& arguments) {
+  LiveOptions& options = arguments.options;
+  const auto claim = [&](const std::string& source) {
+    return new_folder(arguments, source).map([&](const std::filesystem::path& folder) {
+      options.folder = folder;
+    });
+  };
+  if (!arguments.simulated.empty()) {
+    return claim(arguments.simulated)
+        .and_then([&] { return simulate_into(options.folder, arguments); })
+        .and_then([](const std::filesystem::path& made) { return play_recording(made, ""); });
+  }
+  const bool played = !arguments.play.empty();
+  auto rig = played ? play_recording(arguments.play, arguments.rig) : open_rig(arguments.rig);
+  if (!rig) return rig;
+  if (auto claimed = claim(played ? arguments.play : arguments.rig); !claimed) {
+    return tl::unexpected(claimed.error());
+  }
+  return rig;
+}
+
+Result<void> settle(LiveArguments& arguments) {
   LiveOptions& options = arguments.options;
   const int sources = !arguments.play.empty() + !arguments.simulated.empty();
   if (sources > 1 || (sources == 0 && arguments.rig.empty())) {
-    fmt::print(stderr, "sparsight: give --rig FILE, or --play RECORDING, or --simulated SCENE\n");
-    return kRunUsage;
+    return fail(ErrorCode::kMissingField,
+                "give --rig FILE, or --play RECORDING, or --simulated SCENE");
   }
-  const auto config = load_profile(options.profile_name);
-  if (!config) return fail_run(config.error(), kRunUsage);
+  auto config = load_profile(options.profile_name);
+  if (!config) return tl::unexpected(config.error());
   options.config = *config;
   options.recording = !arguments.no_recording;
   options.realtime = !arguments.no_realtime;
   if (arguments.seconds > 0.0) {
     options.duration = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * arguments.seconds));
   }
-  const std::string source = !arguments.play.empty()        ? arguments.play
-                             : !arguments.simulated.empty() ? arguments.simulated
-                                                            : arguments.rig;
-  // A scene is made into the folder; anything else must be there before a folder is made for it.
-  std::optional<LiveRig> rig;
-  if (arguments.simulated.empty()) {
-    auto opened = arguments.play.empty() ? open_rig(arguments.rig)
-                                         : play_recording(arguments.play, arguments.rig);
-    if (!opened) return fail_run(opened.error(), kRunFailed);
-    rig = std::move(*opened);
+  return {};
+}
+
+int run_rig(LiveArguments arguments) {
+  const LiveOptions& options = arguments.options;
+  if (const auto settled = settle(arguments); !settled) {
+    return fail_run(settled.error(), kRunUsage);
   }
-  const auto folder = new_folder(arguments, source);
-  if (!folder) return fail_run(folder.error(), kRunFailed);
-  options.folder = *folder;
-  if (!rig) {
-    auto made = simulate_into(options.folder, arguments);
-    if (!made) return fail_run(made.error(), kRunFailed);
-    auto opened = play_recording(*made, "");
-    if (!opened) return fail_run(opened.error(), kRunFailed);
-    rig = std::move(*opened);
-  }
+  auto rig = open_into_folder(arguments);
+  if (!rig) return fail_run(rig.error(), kRunFailed);
   const auto result = run_live(std::move(*rig), options);
   if (!result) return fail_run(result.error(), kRunFailed);
   if (!options.quiet && !options.json) {

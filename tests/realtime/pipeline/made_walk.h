@@ -21,10 +21,25 @@ class MadeWalk {
   static constexpr std::chrono::nanoseconds kExposure{4'000'000};
   static constexpr std::chrono::nanoseconds kTransfer{9'000'000};
 
-  explicit MadeWalk(int frames, HostTime start = HostTime(std::chrono::seconds(1000)))
-      : start_(start) {
+  explicit MadeWalk(int frames) {
     add_packets(frames * kPeriod);
     for (int i = 0; i < frames; ++i) add_frame(i);
+  }
+
+  // As if it had begun then: to render it takes longer than to walk it, under a sanitizer.
+  void begin_at(HostTime start) {
+    const std::chrono::nanoseconds by = start - start_;
+    start_ = start;
+    for (RigEvent& event : edges_) std::get<Edge>(event).time += by;
+    for (RigEvent& event : packet_events_) std::get<LidarPacket>(event).arrival += by;
+    for (DecodedPacket& packet : *packets_) packet.arrival += by;
+    for (RigEvent& event : frames_) {
+      auto& frame = std::get<std::shared_ptr<const CameraFrame>>(event);
+      auto moved = std::make_shared<CameraFrame>(*frame);
+      moved->driver_time += by;
+      moved->arrival += by;
+      frame = std::move(moved);
+    }
   }
 
   RigCalibration calibration() const { return rig_.calibration(); }
@@ -90,7 +105,7 @@ class MadeWalk {
   }
 
   RoomRig rig_;
-  HostTime start_;
+  HostTime start_{std::chrono::seconds(1000)};
   std::vector<RigEvent> frames_;
   std::vector<RigEvent> edges_;
   std::vector<RigEvent> packet_events_;
