@@ -5,10 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "hal/time.h"
 #include "slam/image/pyramid.h"
 #include "slam/points/selected_point.h"
-#include "slam/tracking/patch_set.h"
+#include "slam/tracking/tracking_target.h"
 
 namespace sparsight {
 
@@ -20,17 +19,12 @@ struct CloudPoint {
 };
 
 // A frame in the window (Sec. IV-B2): its image, its depth, its pose.
-struct Keyframe {
-  std::uint64_t sequence = 0;
-  HostTime exposure;
-  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+struct Keyframe : TrackingTarget {
   // Where the marginalisation prior was linearised; set once, when the prior first touches it.
   std::optional<Eigen::Isometry3d> T_world_camera_first;
 
   ImagePyramid pyramid;
   std::vector<SelectedPoint> points;
-  std::vector<PatchSet> patches;    // per pyramid level
-  double mean_inverse_depth = 0.0;  // 1/m, of the points
   std::vector<CloudPoint> cloud_camera;
 };
 

@@ -1,6 +1,6 @@
 #include "realtime/pipeline/deterministic_replay.h"
 
-#include <map>
+#include "realtime/pipeline/anchored_trajectory.h"
 
 namespace sparsight {
 namespace {
@@ -11,35 +11,6 @@ std::chrono::nanoseconds time_of(const std::function<void()>& stage) {
   return std::chrono::steady_clock::now() - start;
 }
 
-// Frames hang on keyframes; they are placed once their keyframe's pose is final.
-class AnchoredTrajectory {
- public:
-  void add(const SynchronizedFrame& frame, const FrameOutcome& outcome) {
-    frames_.push_back({.sequence = frame.sequence,
-                       .exposure = frame.exposure,
-                       .T_world_camera = outcome.tracking.T_keyframe_camera});
-    anchors_.push_back(outcome.keyframe_sequence);
-  }
-  void settle(const RetiredKeyframe& keyframe) {
-    T_world_keyframe_[keyframe.sequence] = keyframe.T_world_camera;
-  }
-  std::vector<TrajectoryPose> poses() const {
-    std::vector<TrajectoryPose> result = frames_;
-    for (std::size_t i = 0; i < result.size(); ++i) {
-      const auto keyframe = T_world_keyframe_.find(anchors_[i]);
-      if (keyframe != T_world_keyframe_.end()) {
-        result[i].T_world_camera = keyframe->second * frames_[i].T_world_camera;
-      }
-    }
-    return result;
-  }
-
- private:
-  std::vector<TrajectoryPose> frames_;  // relative to their anchors
-  std::vector<std::uint64_t> anchors_;
-  std::map<std::uint64_t, Eigen::Isometry3d> T_world_keyframe_;
-};
-
 }  // namespace
 
 std::vector<TrajectoryPose> replay_deterministic(FrameSource& source, Odometry& odometry,
@@ -48,7 +19,7 @@ std::vector<TrajectoryPose> replay_deterministic(FrameSource& source, Odometry& 
   AnchoredTrajectory trajectory;
   const auto collect_retired = [&] {
     for (RetiredKeyframe& keyframe : odometry.take_retired()) {
-      trajectory.settle(keyframe);
+      trajectory.settle(keyframe.sequence, keyframe.T_world_camera);
       if (callbacks.on_keyframe) callbacks.on_keyframe(std::move(keyframe));
     }
   };
@@ -61,7 +32,7 @@ std::vector<TrajectoryPose> replay_deterministic(FrameSource& source, Odometry& 
 
     FrameRecord record{.sequence = frame->sequence, .exposure = frame->exposure};
     record.tracking_time = time_of([&] { record.outcome = odometry.track(*frame); });
-    trajectory.add(*frame, record.outcome);
+    trajectory.add(frame->sequence, frame->exposure, record.outcome);
     if (record.outcome.becomes_keyframe) {
       record.window_time = time_of([&] { odometry.add_keyframe(*frame); });
     }

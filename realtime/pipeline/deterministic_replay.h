@@ -1,31 +1,15 @@
 #pragma once
 
-#include <chrono>
-#include <cstdint>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "hal/frame_source.h"
+#include "realtime/pipeline/frame_record.h"
 #include "slam/odometry.h"
 
 namespace sparsight {
-
-// One line of the session's journal.
-struct FrameRecord {
-  std::uint64_t sequence = 0;
-  HostTime exposure;
-  FrameOutcome outcome;
-  std::chrono::nanoseconds tracking_time{};  // Odometry::track
-  std::chrono::nanoseconds window_time{};    // Odometry::add_keyframe, zero if not called
-  std::vector<Error> faults;
-};
-
-struct TrajectoryPose {
-  std::uint64_t sequence = 0;
-  HostTime exposure;
-  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
-};
 
 struct ReplayCallbacks {
   std::function<void(const FrameRecord&)> on_frame;

@@ -8,8 +8,7 @@ namespace {
 
 constexpr int kSmallestSide = 16;
 
-GreyImage halved(const GreyImage& fine) {
-  GreyImage coarse;
+void halve(const GreyImage& fine, GreyImage& coarse) {
   coarse.width = fine.width / 2;
   coarse.height = fine.height / 2;
   coarse.pixels.resize(static_cast<std::size_t>(coarse.width) *
@@ -23,17 +22,28 @@ GreyImage halved(const GreyImage& fine) {
       out[u] = static_cast<std::uint8_t>((sum + 2) / 4);
     }
   }
-  return coarse;
 }
 
 }  // namespace
 
 ImagePyramid::ImagePyramid(GreyImage image, int levels) {
-  levels_.reserve(static_cast<std::size_t>(std::max(levels, 1)));
-  levels_.push_back(std::move(image));
-  while (static_cast<int>(levels_.size()) < levels &&
-         std::min(levels_.back().width, levels_.back().height) >= 2 * kSmallestSide) {
-    levels_.push_back(halved(levels_.back()));
+  levels_.resize(static_cast<std::size_t>(std::max(levels, 1)));
+  levels_.front() = std::move(image);
+  halve_down(levels);
+}
+
+void ImagePyramid::assign(const GreyImage& image, int levels) {
+  levels_.resize(static_cast<std::size_t>(std::max(levels, 1)));
+  levels_.front() = image;
+  halve_down(levels);
+}
+
+void ImagePyramid::halve_down(int levels) {
+  count_ = 1;
+  for (; count_ < levels; ++count_) {
+    const GreyImage& fine = levels_[static_cast<std::size_t>(count_ - 1)];
+    if (std::min(fine.width, fine.height) < 2 * kSmallestSide) return;
+    halve(fine, levels_[static_cast<std::size_t>(count_)]);
   }
 }
 

@@ -14,12 +14,20 @@ class ImagePyramid {
   // levels counts the full image. Levels that would fall under 16 pixels are not made.
   ImagePyramid(GreyImage image, int levels);
 
-  int levels() const { return static_cast<int>(levels_.size()); }
+  // The same of another image. Keeps its memory: real-time-safe once it has seen an image of that
+  // size.
+  void assign(const GreyImage& image, int levels);
+  void clear() { count_ = 0; }
+
+  int levels() const { return count_; }
   const GreyImage& level(int index) const { return levels_[static_cast<std::size_t>(index)]; }
-  bool empty() const { return levels_.empty(); }
+  bool empty() const { return count_ == 0; }
 
  private:
-  std::vector<GreyImage> levels_;
+  void halve_down(int levels);
+
+  std::vector<GreyImage> levels_;  // the first count_ of them are the pyramid
+  int count_ = 0;
 };
 
 }  // namespace sparsight

@@ -13,25 +13,33 @@ void MotionModel::observe(HostTime exposure, const Eigen::Isometry3d& T_keyframe
   }
   last_exposure_ = exposure;
   T_keyframe_last_ = T_keyframe_camera;
-  if (recent_.size() == kRemembered) recent_.erase(recent_.begin());
-  recent_.push_back({exposure, T_keyframe_camera});
+  if (count_ == kRemembered) {
+    std::move(recent_.begin() + 1, recent_.end(), recent_.begin());
+    --count_;
+  }
+  recent_[count_++] = {exposure, T_keyframe_camera};
 }
 
 void MotionModel::rebase(HostTime exposure) {
   const Eigen::Isometry3d T_new_old = at(exposure).inverse();
-  for (Observed& observed : recent_) {
-    observed.T_keyframe_camera = T_new_old * observed.T_keyframe_camera;
+  for (std::size_t i = 0; i < count_; ++i) {
+    recent_[i].T_keyframe_camera = T_new_old * recent_[i].T_keyframe_camera;
+  }
+  if (last_exposure_ && *last_exposure_ > exposure) {
+    T_keyframe_last_ = T_new_old * T_keyframe_last_;
+    return;
   }
   last_exposure_ = exposure;
   T_keyframe_last_ = Eigen::Isometry3d::Identity();
 }
 
 Eigen::Isometry3d MotionModel::at(HostTime time) const {
-  const auto after = std::find_if(recent_.begin(), recent_.end(),
-                                  [&](const Observed& o) { return o.exposure >= time; });
-  if (after == recent_.end() || after == recent_.begin()) {
-    if (recent_.empty()) return predict_in_keyframe(time);
-    const Observed& nearest = after == recent_.end() ? recent_.back() : recent_.front();
+  const auto end = recent_.begin() + static_cast<std::ptrdiff_t>(count_);
+  const auto after =
+      std::find_if(recent_.begin(), end, [&](const Observed& o) { return o.exposure >= time; });
+  if (after == end || after == recent_.begin()) {
+    if (count_ == 0) return predict_in_keyframe(time);
+    const Observed& nearest = after == end ? recent_[count_ - 1] : recent_.front();
     const Vector6d twist = twist_.value_or(Vector6d::Zero());
     return nearest.T_keyframe_camera * exp_se3(twist * to_seconds(time - nearest.exposure));
   }

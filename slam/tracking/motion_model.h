@@ -1,22 +1,25 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "hal/time.h"
 #include "slam/geometry/se3.h"
 
 namespace sparsight {
 
-// The constant-motion model of Sec. III: where the camera should be now, from where it was.
+// The constant-motion model of Sec. III: where the camera should be now, from where it was. Copied
+// without allocating; real-time-safe.
 class MotionModel {
  public:
   // The frame at `exposure` stands at T_keyframe_camera of the current keyframe. A pose in doubt
   // leaves a velocity that is known as it was.
   void observe(HostTime exposure, const Eigen::Isometry3d& T_keyframe_camera,
                bool in_doubt = false);
-  // The frame at `exposure` is the keyframe from now on, whether or not it was observed.
+  // The frame at `exposure` is the keyframe from now on, whether or not it was observed, and
+  // whether or not frames after it were.
   void rebase(HostTime exposure);
 
   // Camera-frame velocity [rad/s, m/s]; nothing before two frames were observed.
@@ -37,7 +40,8 @@ class MotionModel {
   // A revolution of a LiDAR at 5 Hz, seen by a camera at 60 Hz.
   static constexpr std::size_t kRemembered = 13;
 
-  std::vector<Observed> recent_;  // oldest first
+  std::array<Observed, kRemembered> recent_;  // the first count_ of them, oldest first
+  std::size_t count_ = 0;
   std::optional<HostTime> last_exposure_;
   Eigen::Isometry3d T_keyframe_last_ = Eigen::Isometry3d::Identity();
   std::optional<Vector6d> twist_;

@@ -31,7 +31,10 @@ void add_brightness_prior(NormalEquations& n, const Alignment& at) {
 
 Vector8d solve(const NormalEquations& n, bool affine_brightness, double damping) {
   const int size = affine_brightness ? 8 : 6;
-  Eigen::MatrixXd H = n.H.topLeftCorner(size, size);
+  // Of a size that varies within fixed bounds: nothing is allocated.
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
+                               NormalEquations::kSize, NormalEquations::kSize>;
+  Square H = n.H.topLeftCorner(size, size);
   H.diagonal() *= 1.0 + damping;
   Vector8d step = Vector8d::Zero();
   step.head(size) = H.ldlt().solve(-n.b.head(size));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 
 #include "slam/geometry/se3.h"
@@ -29,6 +30,12 @@ struct Alignment {
 struct AlignmentWorkspace {
   Linearization current;
   Linearization candidate;
+
+  // Afterwards patch sets of up to so many entries are aligned without allocating.
+  void reserve(std::size_t entries) {
+    current.resize(entries);
+    candidate.resize(entries);
+  }
 };
 
 // Minimises eq. (4) at one pyramid level by Gauss–Newton, damped only after a step that failed.

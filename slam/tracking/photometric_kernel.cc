@@ -71,6 +71,9 @@ void Linearization::resize(std::size_t entries) {
   residual.resize(entries);
   weight.resize(entries);
   for (std::vector<float>& column : J) column.resize(entries);
+  scratch.patch_squares.resize(entries / kPatternSize);
+  scratch.patch_pixels.resize(entries / kPatternSize);
+  scratch.weights.resize(entries);
 }
 
 void linearize(const PatchSet& patches, const GreyImage& image, const CameraModel& camera,

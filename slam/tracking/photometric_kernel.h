@@ -24,6 +24,15 @@ struct Linearization {
   std::vector<float> weight;            // PatchSet::weight where inside the image, else 0
   std::array<std::vector<float>, 6> J;  // grey levels per rad, per metre
 
+  // Where robust_model.h computes, kept so that it allocates once. No part of the value.
+  struct Scratch {
+    std::vector<double> patch_squares;
+    std::vector<double> patch_pixels;
+    std::vector<float> weights;
+  };
+  mutable Scratch scratch;
+
+  // Keeps its memory when it shrinks.
   void resize(std::size_t entries);
 };
 

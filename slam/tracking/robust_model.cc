@@ -19,18 +19,26 @@ PatchColumns columns_of(const std::vector<float>& entries) {
           static_cast<Eigen::Index>(entries.size() / kPatternSize)};
 }
 
-// One element per patch.
-struct PatchSums {
-  Eigen::ArrayXd squares;  // sum of w r^2
-  Eigen::ArrayXd pixels;   // sum of w
+Eigen::Map<Eigen::ArrayXd> array_of(std::vector<double>& scratch, std::size_t entries) {
+  scratch.resize(entries / kPatternSize);
+  return {scratch.data(), static_cast<Eigen::Index>(scratch.size())};
+}
 
-  explicit PatchSums(const Linearization& l) {
+// One element per patch, in the linearisation's scratch space.
+struct PatchSums {
+  Eigen::Map<Eigen::ArrayXd> squares;  // sum of w r^2
+  Eigen::Map<Eigen::ArrayXd> pixels;   // sum of w
+
+  explicit PatchSums(const Linearization& l)
+      : squares(array_of(l.scratch.patch_squares, l.weight.size())),
+        pixels(array_of(l.scratch.patch_pixels, l.weight.size())) {
     const PatchColumns weight = columns_of(l.weight);
     const PatchColumns residual = columns_of(l.residual);
     squares = (weight * residual.square()).colwise().sum().transpose().cast<double>();
     pixels = weight.colwise().sum().transpose().cast<double>();
   }
-  Eigen::ArrayXd weights(double dof, double sigma) const {
+  // An expression: nothing is computed, or stored, before it is used.
+  auto weights(double dof, double sigma) const {
     return (dof + pixels) / (dof + squares / (sigma * sigma));
   }
 };
@@ -78,12 +86,18 @@ NormalEquations accumulate(const PatchSet& patches, const Linearization& lineari
   if (!photometry.patch_weights) {
     return accumulate(patches, linearization, photometry.student_t_dof, sigma);
   }
-  const Eigen::ArrayXf patch_weights =
-      PatchSums(linearization).weights(photometry.student_t_dof, sigma).cast<float>();
-  std::vector<float> weights(linearization.weight.size());
-  Eigen::Map<Eigen::Array<float, static_cast<int>(kPatternSize), Eigen::Dynamic>>(
-      weights.data(), static_cast<int>(kPatternSize), patch_weights.size()) =
-      columns_of(linearization.weight).rowwise() * patch_weights.transpose();
+  const PatchSums sums(linearization);
+  const double dof = photometry.student_t_dof;
+  const PatchColumns pixel_weights = columns_of(linearization.weight);
+  std::vector<float>& weights = linearization.scratch.weights;
+  weights.resize(linearization.weight.size());
+  Eigen::Map<Eigen::Array<float, static_cast<int>(kPatternSize), Eigen::Dynamic>> columns(
+      weights.data(), static_cast<int>(kPatternSize), pixel_weights.cols());
+  for (Eigen::Index patch = 0; patch < columns.cols(); ++patch) {
+    const double weight =
+        (dof + sums.pixels(patch)) / (dof + sums.squares(patch) / (sigma * sigma));
+    columns.col(patch) = pixel_weights.col(patch) * static_cast<float>(weight);
+  }
   return accumulate_weighted(patches, linearization, weights);
 }
 

@@ -17,44 +17,45 @@ void copy_patch(const std::vector<float>& from, std::size_t patch, std::vector<f
 
 }  // namespace
 
-PatchSet thinned(const PatchSet& patches, std::size_t wanted) {
+void thin(const PatchSet& patches, std::size_t wanted, PatchSet& out) {
   const std::size_t step =
       std::max<std::size_t>(1, patches.patches / std::max<std::size_t>(1, wanted));
-  PatchSet result;
+  out.patches = 0;
+  for (std::vector<float>* column : {&out.x, &out.y, &out.z, &out.intensity, &out.weight}) {
+    column->clear();
+  }
   for (std::size_t patch = 0; patch < patches.patches; patch += step) {
-    copy_patch(patches.x, patch, result.x);
-    copy_patch(patches.y, patch, result.y);
-    copy_patch(patches.z, patch, result.z);
-    copy_patch(patches.intensity, patch, result.intensity);
-    copy_patch(patches.weight, patch, result.weight);
-    ++result.patches;
+    copy_patch(patches.x, patch, out.x);
+    copy_patch(patches.y, patch, out.y);
+    copy_patch(patches.z, patch, out.z);
+    copy_patch(patches.intensity, patch, out.intensity);
+    copy_patch(patches.weight, patch, out.weight);
+    ++out.patches;
   }
   const std::size_t padded =
-      (result.entries() + PatchSet::kBlock - 1) / PatchSet::kBlock * PatchSet::kBlock;
-  for (std::vector<float>* column : {&result.x, &result.y, &result.intensity, &result.weight}) {
+      (out.entries() + PatchSet::kBlock - 1) / PatchSet::kBlock * PatchSet::kBlock;
+  for (std::vector<float>* column : {&out.x, &out.y, &out.intensity, &out.weight}) {
     column->resize(padded, 0.0F);
   }
-  result.z.resize(padded, 1.0F);
-  return result;
+  out.z.resize(padded, 1.0F);
 }
 
-std::vector<RankedStart> rank_starts(const std::vector<Alignment>& starts, const PatchSet& patches,
-                                     const GreyImage& image, const CameraModel& camera,
-                                     double mean_inverse_depth, double min_visible,
-                                     const PhotometryConfig& photometry,
-                                     AlignmentWorkspace& workspace) {
-  std::vector<RankedStart> ranked;
+void rank_starts(const std::vector<Alignment>& starts, const PatchSet& patches,
+                 const GreyImage& image, const CameraModel& camera, double mean_inverse_depth,
+                 double min_visible, const PhotometryConfig& photometry,
+                 AlignmentWorkspace& workspace, std::vector<RankedStart>& ranked) {
+  ranked.clear();
   for (const Alignment& start : starts) {
     const Alignment at =
         align(patches, image, camera, mean_inverse_depth, start, kFewSteps, photometry, workspace);
     const PatchAgreement agreement = patch_agreement(patches, workspace.current, at.brightness);
     if (agreement.visible_patches < min_visible) continue;
-    ranked.push_back({at, agreement.found_share});
+    // Behind its equals; std::stable_sort would allocate.
+    const auto worse = std::find_if(ranked.begin(), ranked.end(), [&](const RankedStart& other) {
+      return other.found_share < agreement.found_share;
+    });
+    ranked.insert(worse, {at, agreement.found_share});
   }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const RankedStart& a, const RankedStart& b) {
-    return a.found_share > b.found_share;
-  });
-  return ranked;
 }
 
 }  // namespace sparsight

@@ -8,8 +8,8 @@
 
 namespace sparsight {
 
-// Patches at even steps through the set, about `wanted` of them.
-PatchSet thinned(const PatchSet& patches, std::size_t wanted);
+// Patches at even steps through the set, `wanted` of them to twice as many. `out` keeps its memory.
+void thin(const PatchSet& patches, std::size_t wanted, PatchSet& out);
 
 // Where a starting motion leads in a few steps, and how well the patches are found there.
 struct RankedStart {
@@ -18,11 +18,11 @@ struct RankedStart {
 };
 
 // Sorts starting motions by what they promise, best first; those that see fewer than min_visible
-// patches are left out. Cheap: it serves to tell which are worth following.
-std::vector<RankedStart> rank_starts(const std::vector<Alignment>& starts, const PatchSet& patches,
-                                     const GreyImage& image, const CameraModel& camera,
-                                     double mean_inverse_depth, double min_visible,
-                                     const PhotometryConfig& photometry,
-                                     AlignmentWorkspace& workspace);
+// patches are left out. Cheap: it serves to tell which are worth following. `ranked` keeps its
+// memory.
+void rank_starts(const std::vector<Alignment>& starts, const PatchSet& patches,
+                 const GreyImage& image, const CameraModel& camera, double mean_inverse_depth,
+                 double min_visible, const PhotometryConfig& photometry,
+                 AlignmentWorkspace& workspace, std::vector<RankedStart>& ranked);
 
 }  // namespace sparsight

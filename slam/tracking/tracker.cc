@@ -1,6 +1,7 @@
 #include "slam/tracking/tracker.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -21,6 +22,10 @@ constexpr int kFollowed = 4;
 constexpr double kSamePlacePx = 2.0;  // at the coarsest level
 constexpr double kHopeless = 0.25;    // of the share found
 
+// Memory is set aside for keyframes of so many patches: a bin of 2 degrees each, as wide as a lens
+// without distortion sees. More are tracked too, after an allocation.
+constexpr std::size_t kMostPatches = 4096;
+
 Alignment start_at(const Eigen::Isometry3d& T_keyframe_camera, const Brightness& brightness) {
   Alignment at;
   at.T_camera_keyframe = T_keyframe_camera.inverse();
@@ -36,10 +41,10 @@ class VisitedPlaces {
 
   // False if the pose is one of them.
   bool add(const Eigen::Isometry3d& T_camera_keyframe) {
-    for (const Eigen::Isometry3d& place : places_) {
-      if (distance_px(place, T_camera_keyframe) < kSamePlacePx) return false;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (distance_px(places_[i], T_camera_keyframe) < kSamePlacePx) return false;
     }
-    places_.push_back(T_camera_keyframe);
+    places_[count_++] = T_camera_keyframe;
     return true;
   }
 
@@ -52,7 +57,8 @@ class VisitedPlaces {
 
   double focal_px_;
   double mean_inverse_depth_;
-  std::vector<Eigen::Isometry3d> places_;
+  std::array<Eigen::Isometry3d, 1 + kExamined> places_;  // the direct attempt's, and those examined
+  std::size_t count_ = 0;
 };
 
 // A start that finds more than this share of the patches is as good as right.
@@ -69,7 +75,15 @@ PhotometryConfig per_pixel(PhotometryConfig photometry) {
 Tracker::Tracker(const CameraModel& camera, const TrackerConfig& config,
                  const PhotometryConfig& photometry)
     : config_(config), photometry_(photometry) {
+  cameras_.reserve(static_cast<std::size_t>(std::max(0, config.pyramid_levels)));
   set_camera(camera);
+  workspace_.reserve(kMostPatches * kPatternSize);
+  search_.starts.reserve(kStartingMotions);
+  search_.ranked.reserve(kStartingMotions);
+  for (std::vector<float>* column : {&search_.sample.x, &search_.sample.y, &search_.sample.z,
+                                     &search_.sample.intensity, &search_.sample.weight}) {
+    column->resize(2 * kRankedPatches * kPatternSize + PatchSet::kBlock);
+  }
 }
 
 void Tracker::set_camera(const CameraModel& camera) {
@@ -79,7 +93,7 @@ void Tracker::set_camera(const CameraModel& camera) {
   }
 }
 
-Alignment Tracker::refine(const Keyframe& keyframe, const ImagePyramid& image,
+Alignment Tracker::refine(const TrackingTarget& keyframe, const ImagePyramid& image,
                           const Alignment& start, int coarsest, int finest,
                           const PhotometryConfig& photometry) {
   Alignment at = start;
@@ -94,11 +108,11 @@ Alignment Tracker::refine(const Keyframe& keyframe, const ImagePyramid& image,
 // The prediction or, as a rig often stands still, the last pose: whichever already sees the
 // keyframe at the finer level. A linearisation reaches about a pixel, and a patch that is a pixel
 // off is not found; where neither is found the error that predictions had lately tells the level.
-Tracker::Entry Tracker::entry(const Keyframe& keyframe, const ImagePyramid& image,
+Tracker::Entry Tracker::entry(const TrackingTarget& keyframe, const ImagePyramid& image,
                               const TrackingStart& start, int coarsest) {
   Entry best{.at = start_at(start.T_keyframe_predicted, start.brightness), .level = coarsest};
   if (!config_.automatic_top_level || !std::isfinite(start.error_px)) return best;
-  for (int level = 0; level <= coarsest && !best.found; ++level) {
+  for (int level = start.finest_level; level <= coarsest && !best.found; ++level) {
     const auto index = static_cast<std::size_t>(level);
     double best_share = kFoundAtStart;
     for (const Eigen::Isometry3d& T : {start.T_keyframe_predicted, start.T_keyframe_previous}) {
@@ -115,32 +129,35 @@ Tracker::Entry Tracker::entry(const Keyframe& keyframe, const ImagePyramid& imag
   }
   if (!best.found) {
     best.level = std::clamp(static_cast<int>(std::ceil(std::log2(std::max(start.error_px, 1.0)))),
-                            0, coarsest);
+                            start.finest_level, coarsest);
   }
   return best;
 }
 
 // Far from the pose nearly every patch disagrees as a whole, and there is no ground to judge
 // patches on before the finest level.
-Alignment Tracker::descend(const Keyframe& keyframe, const ImagePyramid& image,
-                           const Alignment& start, int coarsest) {
-  const Alignment near = refine(keyframe, image, start, coarsest, 1, per_pixel(photometry_));
-  return refine(keyframe, image, near, 0, 0, photometry_);
+Alignment Tracker::descend(const TrackingTarget& keyframe, const ImagePyramid& image,
+                           const Alignment& start, int coarsest, int finest) {
+  const Alignment near =
+      refine(keyframe, image, start, coarsest, finest + 1, per_pixel(photometry_));
+  return refine(keyframe, image, near, finest, finest, photometry_);
 }
 
-Alignment Tracker::past_other_minima(const Keyframe& keyframe, const ImagePyramid& image,
+Alignment Tracker::past_other_minima(const TrackingTarget& keyframe, const ImagePyramid& image,
                                      const Alignment& found, const TrackingStart& start) {
-  const PatchSet& patches = keyframe.patches.front();
+  const int level = start.finest_level;
+  const auto index = static_cast<std::size_t>(level);
+  const PatchSet& patches = keyframe.patches[index];
   const Eigen::Vector3d way =
       start.T_keyframe_predicted.translation() - start.T_keyframe_previous.translation();
   const std::optional<Alignment> other = best_speed(
-      patches, image.level(0), cameras_.front(), keyframe.mean_inverse_depth, found, way,
+      patches, image.level(level), cameras_[index], keyframe.mean_inverse_depth, found, way,
       [&](const Eigen::Isometry3d& T) { return plausible(T, start); }, photometry_, workspace_);
   if (other) {
-    const Alignment refined = refine(keyframe, image, *other, 0, 0, photometry_);
+    const Alignment refined = refine(keyframe, image, *other, level, level, photometry_);
     if (refined.cost < found.cost) return refined;
   }
-  assess(patches, image.level(0), cameras_.front(), found, photometry_, workspace_);
+  assess(patches, image.level(level), cameras_[index], found, photometry_, workspace_);
   return found;
 }
 
@@ -154,9 +171,9 @@ bool Tracker::plausible(const Eigen::Isometry3d& T_keyframe_camera,
   return surprise_m <= config_.max_acceleration_m_s2 * seconds * seconds;
 }
 
-TrackingResult Tracker::verdict(const Keyframe& keyframe, const Alignment& at,
+TrackingResult Tracker::verdict(const TrackingTarget& keyframe, const Alignment& at,
                                 const TrackingStart& start, int top_level) const {
-  const PatchSet& finest = keyframe.patches.front();
+  const PatchSet& finest = keyframe.patches[static_cast<std::size_t>(start.finest_level)];
   const PatchAgreement agreement = patch_agreement(finest, workspace_.current, at.brightness);
   TrackingResult result;
   result.T_keyframe_camera = renormalized(at.T_camera_keyframe.inverse());
@@ -180,28 +197,30 @@ TrackingResult Tracker::verdict(const Keyframe& keyframe, const Alignment& at,
   return result;
 }
 
-std::vector<RankedStart> Tracker::ranked_starts(const Keyframe& keyframe, const ImagePyramid& image,
-                                                const TrackingStart& start, int coarsest) {
+const std::vector<RankedStart>& Tracker::ranked_starts(const TrackingTarget& keyframe,
+                                                       const ImagePyramid& image,
+                                                       const TrackingStart& start, int coarsest) {
   const auto level = static_cast<std::size_t>(coarsest);
-  std::vector<Alignment> starts;
+  search_.starts.clear();
   const double mean_depth_m = 1.0 / std::max(keyframe.mean_inverse_depth, 1e-3);
   for (const Eigen::Isometry3d& T_keyframe_camera :
        starting_motions(start.T_keyframe_previous, start.T_keyframe_predicted, mean_depth_m)) {
-    starts.push_back(start_at(T_keyframe_camera, start.brightness));
+    search_.starts.push_back(start_at(T_keyframe_camera, start.brightness));
   }
   const PatchSet& patches = keyframe.patches[level];
-  const PatchSet sample = thinned(patches, kRankedPatches);
-  const double share = static_cast<double>(sample.patches) /
+  thin(patches, kRankedPatches, search_.sample);
+  const double share = static_cast<double>(search_.sample.patches) /
                        static_cast<double>(std::max<std::size_t>(1, patches.patches));
-  return rank_starts(starts, sample, image.level(coarsest), cameras_[level],
-                     keyframe.mean_inverse_depth, share * config_.min_points,
-                     per_pixel(photometry_), workspace_);
+  rank_starts(search_.starts, search_.sample, image.level(coarsest), cameras_[level],
+              keyframe.mean_inverse_depth, share * config_.min_points, per_pixel(photometry_),
+              workspace_, search_.ranked);
+  return search_.ranked;
 }
 
-TrackingResult Tracker::search(const Keyframe& keyframe, const ImagePyramid& image,
+TrackingResult Tracker::search(const TrackingTarget& keyframe, const ImagePyramid& image,
                                const TrackingStart& start, int coarsest,
                                const TrackingResult& direct) {
-  const std::vector<RankedStart> ranked = ranked_starts(keyframe, image, start, coarsest);
+  const std::vector<RankedStart>& ranked = ranked_starts(keyframe, image, start, coarsest);
   // Many starts meet in one place, most often where the direct attempt has ended.
   VisitedPlaces places(cameras_[static_cast<std::size_t>(coarsest)], keyframe.mean_inverse_depth);
   if (direct.ok()) places.add(direct.T_keyframe_camera.inverse());
@@ -214,21 +233,25 @@ TrackingResult Tracker::search(const Keyframe& keyframe, const ImagePyramid& ima
     if (!places.add(coarse.T_camera_keyframe)) continue;
     ++followed;
     const TrackingResult result =
-        verdict(keyframe, descend(keyframe, image, coarse, coarsest - 1), start, coarsest);
+        verdict(keyframe, descend(keyframe, image, coarse, coarsest - 1, start.finest_level), start,
+                coarsest);
     if (result.ok() >= best.ok() && result.found_share > best.found_share) best = result;
   }
   best.attempts = static_cast<int>(ranked.size());
   return best;
 }
 
-TrackingResult Tracker::track(const Keyframe& keyframe, const ImagePyramid& image,
-                              const TrackingStart& start) {
+TrackingResult Tracker::track(const TrackingTarget& keyframe, const ImagePyramid& image,
+                              const TrackingStart& wanted) {
   const int levels =
       std::min({config_.pyramid_levels, image.levels(), static_cast<int>(keyframe.patches.size())});
+  TrackingStart start = wanted;
+  start.finest_level = std::clamp(wanted.finest_level, 0, std::max(0, levels - 2));
   const bool known = std::isfinite(start.error_px);
   const Entry from = entry(keyframe, image, start, levels - 1);
-  Alignment at = from.found ? refine(keyframe, image, from.at, from.level, 0, photometry_)
-                            : descend(keyframe, image, from.at, from.level);
+  Alignment at = from.found
+                     ? refine(keyframe, image, from.at, from.level, start.finest_level, photometry_)
+                     : descend(keyframe, image, from.at, from.level, start.finest_level);
   if (config_.scan_speed) at = past_other_minima(keyframe, image, at, start);
   TrackingResult result = verdict(keyframe, at, start, from.level);
   result.attempts = 1;

@@ -8,9 +8,10 @@
 
 #include "slam/geometry/camera_model.h"
 #include "slam/geometry/se3.h"
-#include "slam/keyframe.h"
+#include "slam/image/pyramid.h"
 #include "slam/tracking/photometric_alignment.h"
 #include "slam/tracking/start_ranking.h"
+#include "slam/tracking/tracking_target.h"
 
 namespace sparsight {
 
@@ -57,9 +58,13 @@ struct TrackingStart {
   double found_share = 0.0;                                   // of the last frame
   // Time since the last tracked frame; nothing if its velocity is not known.
   std::optional<double> seconds_since_previous;
+  // Where refinement ends: 0, or in want of time a coarser level. The pose is then known to that
+  // level's pixels, and what is found is judged there.
+  int finest_level = 0;
 };
 
-// Direct tracking of a frame against a keyframe, Sec. IV-C. Thread-bound.
+// Direct tracking of a frame against a keyframe, Sec. IV-C. Thread-bound; after construction
+// real-time-safe.
 class Tracker {
  public:
   Tracker(const CameraModel& camera, const TrackerConfig& config,
@@ -67,7 +72,7 @@ class Tracker {
 
   void set_camera(const CameraModel& camera);
 
-  TrackingResult track(const Keyframe& keyframe, const ImagePyramid& image,
+  TrackingResult track(const TrackingTarget& keyframe, const ImagePyramid& image,
                        const TrackingStart& start);
 
  private:
@@ -78,29 +83,36 @@ class Tracker {
     int level = 0;
     bool found = false;
   };
-  Entry entry(const Keyframe& keyframe, const ImagePyramid& image, const TrackingStart& start,
+  Entry entry(const TrackingTarget& keyframe, const ImagePyramid& image, const TrackingStart& start,
               int coarsest);
   // Coarse to fine, both levels included; leaves the last linearisation in the workspace.
-  Alignment refine(const Keyframe& keyframe, const ImagePyramid& image, const Alignment& start,
-                   int coarsest, int finest, const PhotometryConfig& photometry);
+  Alignment refine(const TrackingTarget& keyframe, const ImagePyramid& image,
+                   const Alignment& start, int coarsest, int finest,
+                   const PhotometryConfig& photometry);
   // At speed the prediction may have led to the wrong one of many minima along the way.
-  Alignment past_other_minima(const Keyframe& keyframe, const ImagePyramid& image,
+  Alignment past_other_minima(const TrackingTarget& keyframe, const ImagePyramid& image,
                               const Alignment& found, const TrackingStart& start);
-  Alignment descend(const Keyframe& keyframe, const ImagePyramid& image, const Alignment& start,
-                    int coarsest);
-  TrackingResult verdict(const Keyframe& keyframe, const Alignment& at, const TrackingStart& start,
-                         int top_level) const;
+  Alignment descend(const TrackingTarget& keyframe, const ImagePyramid& image,
+                    const Alignment& start, int coarsest, int finest);
+  TrackingResult verdict(const TrackingTarget& keyframe, const Alignment& at,
+                         const TrackingStart& start, int top_level) const;
   bool plausible(const Eigen::Isometry3d& T_keyframe_camera, const TrackingStart& start) const;
-  std::vector<RankedStart> ranked_starts(const Keyframe& keyframe, const ImagePyramid& image,
-                                         const TrackingStart& start, int coarsest);
+  const std::vector<RankedStart>& ranked_starts(const TrackingTarget& keyframe,
+                                                const ImagePyramid& image,
+                                                const TrackingStart& start, int coarsest);
   // From all starting motions; what `direct` has found already is not looked for again.
-  TrackingResult search(const Keyframe& keyframe, const ImagePyramid& image,
+  TrackingResult search(const TrackingTarget& keyframe, const ImagePyramid& image,
                         const TrackingStart& start, int coarsest, const TrackingResult& direct);
 
   TrackerConfig config_;
   PhotometryConfig photometry_;
   std::vector<CameraModel> cameras_;  // per level
   AlignmentWorkspace workspace_;
+  struct {
+    std::vector<Alignment> starts;
+    PatchSet sample;
+    std::vector<RankedStart> ranked;
+  } search_;
 };
 
 }  // namespace sparsight

@@ -166,7 +166,9 @@ bool WindowOptimizer::descend(std::vector<Pair>& pairs, const Eigen::VectorXd& s
   return false;
 }
 
-WindowSummary WindowOptimizer::optimize() {
+WindowSummary WindowOptimizer::optimize(std::optional<int> most_iterations) {
+  const int limit =
+      std::min(config_.max_iterations, most_iterations.value_or(config_.max_iterations));
   WindowSummary summary;
   pairs_ = covisible_pairs();
   std::vector<Pair>& pairs = *pairs_;
@@ -175,7 +177,7 @@ WindowSummary WindowOptimizer::optimize() {
   if (size() < 2 || pairs.empty()) return summary;
 
   double damping = 0.0;
-  while (summary.iterations < config_.max_iterations && !summary.converged) {
+  while (summary.iterations < limit && !summary.converged) {
     ++summary.iterations;
     const Eigen::VectorXd step = solve_holding_oldest(energy_about_current(pairs), damping);
     if (!step.allFinite()) break;

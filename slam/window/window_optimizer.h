@@ -56,8 +56,8 @@ class WindowOptimizer {
 
   // The newcomer's pose is its tracked one.
   void add(std::unique_ptr<Keyframe> keyframe);
-  // Gauss–Newton over the poses only (Sec. IV-D).
-  WindowSummary optimize();
+  // Gauss–Newton over the poses only (Sec. IV-D). most_iterations: fewer than configured.
+  WindowSummary optimize(std::optional<int> most_iterations = std::nullopt);
   // Shows the two newest keyframes to the calibration; true if that changed its camera.
   bool teach(SelfCalibration& calibration);
   // From now on all keyframes are compared through this camera.

@@ -189,18 +189,21 @@ std::string format_kitti(const std::vector<Eigen::Isometry3d>& poses) {
   return text;
 }
 
+std::string tum_line(HostTime time, const Eigen::Isometry3d& T_world_camera) {
+  const std::int64_t time_ns = time.time_since_epoch().count();
+  const std::uint64_t magnitude =
+      time_ns < 0 ? -static_cast<std::uint64_t>(time_ns) : static_cast<std::uint64_t>(time_ns);
+  const Eigen::Vector3d t = T_world_camera.translation();
+  const Eigen::Quaterniond q(T_world_camera.linear());
+  return fmt::format("{}{}.{:09} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n",
+                     time_ns < 0 ? "-" : "", magnitude / 1'000'000'000, magnitude % 1'000'000'000,
+                     t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
+}
+
 std::string format_tum(const Trajectory& trajectory) {
-  std::string text = "# t tx ty tz qx qy qz qw\n";
+  std::string text = kTumHeader;
   for (std::size_t i = 0; i < trajectory.poses.size(); ++i) {
-    const std::int64_t time_ns = trajectory.times[i].time_since_epoch().count();
-    const std::uint64_t magnitude =
-        time_ns < 0 ? -static_cast<std::uint64_t>(time_ns) : static_cast<std::uint64_t>(time_ns);
-    const Eigen::Vector3d t = trajectory.poses[i].translation();
-    const Eigen::Quaterniond q(trajectory.poses[i].linear());
-    fmt::format_to(std::back_inserter(text),
-                   "{}{}.{:09} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n",
-                   time_ns < 0 ? "-" : "", magnitude / 1'000'000'000, magnitude % 1'000'000'000,
-                   t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
+    text += tum_line(trajectory.times[i], trajectory.poses[i]);
   }
   return text;
 }

@@ -39,6 +39,8 @@ Result<std::vector<HostTime>> read_times(const std::filesystem::path& file);
 
 // Every digit needed to read the same doubles back. The TUM form needs times.
 std::string format_kitti(const std::vector<Eigen::Isometry3d>& poses);
+inline constexpr const char* kTumHeader = "# t tx ty tz qx qy qz qw\n";
+std::string tum_line(HostTime time, const Eigen::Isometry3d& T_world_camera);
 std::string format_tum(const Trajectory& trajectory);
 
 // Gives a trajectory without times those of its frames; refuses if there are fewer times than

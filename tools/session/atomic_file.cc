@@ -6,9 +6,9 @@
 
 namespace sparsight {
 
-AtomicFile::AtomicFile(std::filesystem::path path)
+AtomicFile::AtomicFile(std::filesystem::path path, Appears appears)
     : path_(std::move(path)),
-      partial_(path_.string() + ".partial"),
+      partial_(appears == Appears::kWhole ? path_.string() + ".partial" : path_.string()),
       stream_(partial_, std::ios::binary | std::ios::trunc) {}
 
 Result<void> AtomicFile::commit() {
@@ -18,6 +18,7 @@ Result<void> AtomicFile::commit() {
                 fmt::format("{}: cannot be written; check the folder's permission and free space",
                             partial_.string()));
   }
+  if (partial_ == path_) return {};
   std::error_code error;
   std::filesystem::rename(partial_, path_, error);
   if (error) {

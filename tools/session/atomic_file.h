@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
@@ -13,7 +14,11 @@ namespace sparsight {
 // older file of that name is as it was.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path path);
+  enum class Appears : std::uint8_t {
+    kWhole,
+    kAtOnce,  // a journal that is worth reading however far it got: under its name from the start
+  };
+  explicit AtomicFile(std::filesystem::path path, Appears appears = Appears::kWhole);
 
   std::ostream& stream() { return stream_; }
   // Pushes what was written so far to the system, so that a crash does not lose it.

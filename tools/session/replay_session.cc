@@ -59,15 +59,6 @@ std::optional<std::size_t> frames_to_come(const FrameSource& source, const Repla
   return count ? std::min(*count, *options.max_frames) : *options.max_frames;
 }
 
-// A calibration that the images contradict is the user's to know, and to mend.
-void tell_camera_found(const CameraIntrinsics& given, const CameraIntrinsics& found,
-                       Session& session) {
-  if (found.fx == given.fx && found.k1 == given.k1) return;
-  session.notes.push_back(fmt::format(
-      "the images show a camera with focal length x {:.4f} and k1 {:+.4f} beside the given one",
-      found.fx / given.fx, found.k1 - given.k1));
-}
-
 // Runs to the end of the source, or until it breaks off: then what has been gathered stands.
 void run(FrameSource& source, const ReplayOptions& options, SessionRecorder& recorder) {
   Progress progress(stderr, Progress::style_for(stderr, options.quiet),

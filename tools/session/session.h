@@ -25,6 +25,13 @@ struct SessionDescription {
   RigCalibration calibration;
 };
 
+// Milliseconds.
+struct StageTimes {
+  double median_ms = 0.0;
+  double p99_ms = 0.0;
+  double max_ms = 0.0;
+};
+
 // The true path and what the comparison says.
 struct GroundTruth {
   std::filesystem::path file;
@@ -32,6 +39,20 @@ struct GroundTruth {
   // Where the evaluated frames (evaluation.estimate_indices) were in truth, in the session's world:
   // the first of them stands where the estimate has it.
   std::vector<Eigen::Vector3d> positions;
+};
+
+// What a live run says of itself beyond what a replay does.
+struct LiveFigures {
+  StageTimes exposure_to_pose;
+  StageTimes arrival_to_pose;  // from the camera's frame being there
+  StageTimes wake_up;          // of the tracking thread, after it was due
+  std::uint64_t deadlines_missed = 0;
+  std::uint64_t frames_dropped = 0;     // by us, before they were tracked
+  std::uint64_t events_unrecorded = 0;  // by us, raw ones
+  std::uint64_t work_left_out = 0;      // previews, loop searches, iterations, levels
+  std::optional<double> first_pose_s;   // after the camera's first frame
+  double cpu_share = 0.0;               // of one processor
+  std::uint64_t resident_bytes = 0;     // at the end
 };
 
 // Everything a session leaves behind but the map.
@@ -46,6 +67,7 @@ struct Session {
   bool complete = false;                 // the source was read to its end (or to --max-frames)
   std::optional<std::string> broke_off;  // why it was not
   std::optional<GroundTruth> truth;
+  std::optional<LiveFigures> live;
   std::vector<std::string> notes;  // what a person must know before trusting the figures
 };
 

@@ -32,9 +32,26 @@ Json json_of(const StageTiming& timing) {
           {"max", timing.max_ms}};
 }
 
+Json json_of(const StageTimes& times) {
+  return {{"median", times.median_ms}, {"p99", times.p99_ms}, {"max", times.max_ms}};
+}
+
 template <typename Figure>
 Json json_of(const std::optional<Figure>& figure) {
   return figure ? Json(*figure) : Json(nullptr);
+}
+
+Json json_of(const LiveFigures& live) {
+  return {{"exposure_to_pose_ms", json_of(live.exposure_to_pose)},
+          {"arrival_to_pose_ms", json_of(live.arrival_to_pose)},
+          {"wake_up_ms", json_of(live.wake_up)},
+          {"deadlines_missed", live.deadlines_missed},
+          {"frames_dropped", live.frames_dropped},
+          {"events_unrecorded", live.events_unrecorded},
+          {"work_left_out", live.work_left_out},
+          {"first_pose_s", json_of(live.first_pose_s)},
+          {"cpu_share", live.cpu_share},
+          {"resident_bytes", live.resident_bytes}};
 }
 
 Json json_of(const GroundTruth& truth) {
@@ -83,6 +100,7 @@ std::string session_json(const Session& session, const SessionSummary& summary) 
                {"times_real_time", summary.realtime_factor},
                {"accuracy", session.truth ? json_of(*session.truth) : Json(nullptr)},
                {"notes", session.notes}};
+  if (session.live) json["live"] = json_of(*session.live);
   // A path need not be UTF-8; an unreadable character must not cost the session.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -38,8 +38,12 @@ std::vector<TrajectoryPose> poses_as_tracked(const std::vector<FrameFigures>& fr
 }  // namespace
 
 SessionRecorder::SessionRecorder(std::filesystem::path folder, SessionDescription description,
-                                 bool map)
-    : folder_(std::move(folder)), journal_(folder_ / "frames.csv") {
+                                 bool map, AtomicFile::Appears journal)
+    : folder_(std::move(folder)), journal_(folder_ / "frames.csv", journal) {
+  if (journal == AtomicFile::Appears::kAtOnce) {
+    poses_.emplace(folder_ / "trajectory.tum", journal);
+    poses_->stream() << kTumHeader;
+  }
   session_.description = std::move(description);
   if (map) map_.emplace(VoxelMapConfig{});
   journal_.stream() << frames_csv_header();
@@ -54,6 +58,10 @@ std::vector<Error> SessionRecorder::add(const FrameRecord& record) {
   session_.frames.push_back(figures_of(record));
   journal_.stream() << frames_csv_line(session_.frames.back());
   journal_.flush();
+  if (poses_) {
+    poses_->stream() << tum_line(record.exposure, record.outcome.T_world_camera);
+    poses_->flush();
+  }
   std::vector<Error> news;
   for (const Error& fault : record.faults) {
     if (session_.faults.add(record.sequence, fault)) news.push_back(fault);

@@ -12,11 +12,14 @@
 namespace sparsight {
 
 // Gathers a session as it runs and writes its folder. The journal grows as frames come; all else is
-// written at the end, each file appearing when it is whole and session.json last. Thread-bound.
+// written at the end, each file appearing when it is whole and session.json last. Thread-bound, but
+// frames and keyframes may be added by two threads, each by its own.
 class SessionRecorder {
  public:
-  // Without `map` none is kept or written.
-  SessionRecorder(std::filesystem::path folder, SessionDescription description, bool map);
+  // Without `map` none is kept or written. kAtOnce: the journal and the poses as they are tracked
+  // stand under their names from the start, for a run that may be cut off at any moment.
+  SessionRecorder(std::filesystem::path folder, SessionDescription description, bool map,
+                  AtomicFile::Appears journal = AtomicFile::Appears::kWhole);
 
   // Marks a new folder as a session's, so that after a crash it may be replaced.
   Result<void> begin();
@@ -37,6 +40,7 @@ class SessionRecorder {
   Session session_;
   std::optional<VoxelMap> map_;
   AtomicFile journal_;
+  std::optional<AtomicFile> poses_;  // as tracked; replaced by the final ones at the end
 };
 
 }  // namespace sparsight

@@ -1,5 +1,7 @@
 #include "tools/session/session_summary.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -78,6 +80,14 @@ std::optional<Error> failure_of(const Session& session) {
                  source + ": no frame could be tracked; report.html shows what was tried"};
   }
   return std::nullopt;
+}
+
+void tell_camera_found(const CameraIntrinsics& given, const CameraIntrinsics& found,
+                       Session& session) {
+  if (found.fx == given.fx && found.k1 == given.k1) return;
+  session.notes.push_back(fmt::format(
+      "the images show a camera with focal length x {:.4f} and k1 {:+.4f} beside the given one",
+      found.fx / given.fx, found.k1 - given.k1));
 }
 
 }  // namespace sparsight

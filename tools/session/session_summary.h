@@ -29,6 +29,10 @@ struct SessionSummary {
 
 SessionSummary summarize(const Session& session);
 
+// A calibration that the images contradict is the user's to know, and to mend: a note.
+void tell_camera_found(const CameraIntrinsics& given, const CameraIntrinsics& found,
+                       Session& session);
+
 // Why a session that was written is a failure all the same, if it is: it broke off, or nothing
 // could be tracked.
 std::optional<Error> failure_of(const Session& session);

@@ -6,6 +6,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Direct visual SLAM on sparse LiDAR depth"};
   app.require_subcommand(1);
   int exit_code = 0;
+  sparsight::add_run(app, exit_code);
+  sparsight::add_record(app, exit_code);
   sparsight::add_replay(app, exit_code);
   sparsight::add_evaluate(app, exit_code);
   sparsight::add_simulate(app, exit_code);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/slam/analytic_image.h"
 
 namespace sparsight {
@@ -58,6 +60,24 @@ TEST(ImagePyramid, AlwaysHasTheImageItself) {
   ASSERT_EQ(pyramid.levels(), 1);
   EXPECT_EQ(pyramid.level(0).pixels, image.pixels);
   EXPECT_TRUE(ImagePyramid().empty());
+}
+
+TEST(ImagePyramid, TakesAnotherImageAsIfItWereNew) {
+  const auto wave = [](double u, double v) { return 100.0 + 50.0 * std::sin(0.2 * u + 0.1 * v); };
+  const auto dark = [](double, double) { return 7.0; };
+  ImagePyramid reused(analytic_image(200, 120, wave), 4);
+  for (const int width : {200, 64, 200}) {
+    const GreyImage image = analytic_image(width, 120, dark);
+    reused.assign(image, 4);
+    const ImagePyramid fresh(image, 4);
+    ASSERT_EQ(reused.levels(), fresh.levels());
+    for (int level = 0; level < fresh.levels(); ++level) {
+      EXPECT_EQ(reused.level(level).width, fresh.level(level).width);
+      EXPECT_EQ(reused.level(level).pixels, fresh.level(level).pixels);
+    }
+  }
+  reused.clear();
+  EXPECT_TRUE(reused.empty());
 }
 
 }  // namespace

@@ -74,6 +74,19 @@ TEST(MotionModel, StartsFromAKeyframeThatWasNotObserved) {
   EXPECT_LT((*model.twist() - twist).norm(), 1e-9);
 }
 
+// The window's word on a keyframe comes when frames after it have been tracked already.
+TEST(MotionModel, GoesOverToAKeyframeThatLiesFramesBack) {
+  Vector6d twist;
+  twist << 0.0, 0.3, 0.0, 0.0, 0.0, 8.0;
+  MotionModel model;
+  for (const double t : {0.0, 0.1, 0.2, 0.3}) model.observe(at(t), exp_se3(twist * t));
+  model.rebase(at(0.1));
+  EXPECT_LT(distance(model.last_in_keyframe(), exp_se3(twist * 0.2)), 1e-9);
+  EXPECT_LT(distance(model.predict_in_keyframe(at(0.4)), exp_se3(twist * 0.3)), 1e-9);
+  EXPECT_LT(distance(model.at(at(0.1)), Eigen::Isometry3d::Identity()), 1e-9);
+  EXPECT_NEAR(*model.seconds_since_last(at(0.4)), 0.1, 1e-9);
+}
+
 TEST(MotionModel, KeepsItsVelocityWhereTimeDoesNotAdvance) {
   Vector6d twist;
   twist << 0.0, 0.0, 0.1, 1.0, 0.0, 0.0;

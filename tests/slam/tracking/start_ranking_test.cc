@@ -26,6 +26,12 @@ PatchSet numbered_patches(std::size_t patches) {
   return set;
 }
 
+PatchSet thinned(const PatchSet& patches, std::size_t wanted) {
+  PatchSet out = numbered_patches(3);  // what was in it is gone
+  thin(patches, wanted, out);
+  return out;
+}
+
 TEST(Thinned, KeepsWholePatchesAtEvenSteps) {
   const PatchSet thin = thinned(numbered_patches(30), 10);
   ASSERT_EQ(thin.patches, 10U);
@@ -77,7 +83,9 @@ struct Wall {
       starts[i].T_camera_keyframe = T_camera_keyframe[i];
     }
     AlignmentWorkspace workspace;
-    return rank_starts(starts, patches, image, camera, 0.2, 30.0, {}, workspace);
+    std::vector<RankedStart> ranked;
+    rank_starts(starts, patches, image, camera, 0.2, 30.0, {}, workspace, ranked);
+    return ranked;
   }
 
   GreyImage image = analytic_image(160, 120, [](double u, double v) {

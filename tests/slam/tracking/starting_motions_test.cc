@@ -3,13 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <span>
 
 #include "slam/geometry/se3.h"
 
 namespace sparsight {
 namespace {
 
-bool any_like(const std::vector<Eigen::Isometry3d>& starts, const Eigen::Isometry3d& T) {
+bool any_like(std::span<const Eigen::Isometry3d> starts, const Eigen::Isometry3d& T) {
   return std::any_of(starts.begin(), starts.end(), [&](const Eigen::Isometry3d& start) {
     return (start.matrix() - T.matrix()).norm() < 1e-9;
   });

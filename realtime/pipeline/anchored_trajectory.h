@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "realtime/pipeline/frame_record.h"
+
+namespace sparsight {
+
+// Frames hang on keyframes; they are placed once their keyframe's pose is final. Thread-bound.
+class AnchoredTrajectory {
+ public:
+  void add(std::uint64_t sequence, HostTime exposure, const FrameOutcome& outcome);
+  // The pose with which the keyframe has left the window.
+  void settle(std::uint64_t keyframe, const Eigen::Isometry3d& T_world_keyframe);
+  // One per frame; one whose keyframe never settled stands relative to it.
+  std::vector<TrajectoryPose> poses() const;
+
+ private:
+  std::vector<TrajectoryPose> frames_;  // relative to their anchors
+  std::vector<std::uint64_t> anchors_;
+  std::map<std::uint64_t, Eigen::Isometry3d> T_world_keyframe_;
+};
+
+}  // namespace sparsight

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+
+#include "slam/image/pyramid.h"
+#include "slam/tracking/motion_model.h"
+#include "slam/tracking/tracker.h"
+
+namespace sparsight {
+
+// What became of one frame. A frame that could not be tracked carries a predicted pose and says so.
+struct FrameOutcome {
+  enum class Status : std::uint8_t {
+    kTracked,    // pose measured against a keyframe
+    kFirst,      // defines the world frame
+    kPredicted,  // not measured: no image, or tracking failed from every start
+  };
+  Status status = Status::kPredicted;
+  TrackingResult tracking;  // of the best attempt; its pose is the predicted one if none
+  std::uint64_t keyframe_sequence = 0;  // the keyframe T_keyframe_camera refers to
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();  // as known at that moment
+  bool becomes_keyframe = false;
+};
+
+// What tracking leaves behind of a frame, and all that the window needs if it becomes a keyframe.
+// Keeps its memory from frame to frame.
+struct TrackedFrame {
+  ImagePyramid pyramid;  // empty: no image
+  FrameOutcome outcome;
+  MotionModel motion;  // as of this frame, in the keyframe it was tracked against
+};
+
+}  // namespace sparsight

@@ -1,0 +1,130 @@
+#include "slam/tracking_stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparsight {
+namespace {
+
+constexpr double kErrorMemory = 0.7;  // how fast the expected error of the prediction calms down
+constexpr int kPatientFrames = 3;     // untracked frames before a new keyframe is forced
+
+// Of an image relative to a later keyframe, both known relative to an earlier one.
+Brightness relative_to(const Brightness& keyframe, const Brightness& image) {
+  const double gain = image.gain / keyframe.gain;
+  return {.gain = gain, .offset = image.offset - gain * keyframe.offset};
+}
+
+}  // namespace
+
+TrackingStage::TrackingStage(const RigCalibration& calibration, const OdometryConfig& config)
+    : calibration_(calibration),
+      config_(config),
+      tracker_(CameraModel(calibration.camera), config.tracker, config.photometry) {}
+
+void TrackingStage::prepare(TrackedFrame& out) const {
+  GreyImage image{.width = calibration_.camera.width, .height = calibration_.camera.height};
+  image.pixels.resize(static_cast<std::size_t>(image.width) *
+                      static_cast<std::size_t>(image.height));
+  out.pyramid.assign(image, config_.tracker.pyramid_levels);
+}
+
+void TrackingStage::track(const SynchronizedFrame& frame, const TrackingReference& reference,
+                          TrackedFrame& out, int finest_level) {
+  if (frame.grey.empty()) {
+    out.pyramid.clear();
+  } else {
+    out.pyramid.assign(frame.grey, config_.tracker.pyramid_levels);
+  }
+  take_up(reference);
+  if (reference.keyframes > 0) {
+    out.outcome = follow(frame, reference, out.pyramid, finest_level);
+  } else {
+    out.outcome = {};
+    out.outcome.becomes_keyframe =
+        !handed_over_ && !out.pyramid.empty() && !frame.sweep.returns.empty();
+    if (out.outcome.becomes_keyframe) out.outcome.status = FrameOutcome::Status::kFirst;
+    out.outcome.keyframe_sequence = handed_over_.value_or(frame.sequence);
+  }
+  if (out.outcome.becomes_keyframe) {
+    handed_over_ = frame.sequence;
+    brightness_at_hand_over_ = brightness_;
+  }
+  out.motion = motion_;
+}
+
+void TrackingStage::take_up(const TrackingReference& reference) {
+  if (reference.version == reference_version_) return;
+  reference_version_ = reference.version;
+  if (reference.considered && handed_over_ == reference.considered) handed_over_.reset();
+  if (reference.keyframes == 0) return;
+  tracker_.set_camera(reference.camera);
+  if (keyframe_ == reference.keyframe.sequence) return;
+  keyframe_ = reference.keyframe.sequence;
+  motion_.rebase(reference.keyframe.exposure);
+  brightness_ = relative_to(brightness_at_hand_over_, brightness_);
+  untracked_ = 0;
+}
+
+// The usual case: a keyframe stands, the frame has an image.
+FrameOutcome TrackingStage::follow(const SynchronizedFrame& frame,
+                                   const TrackingReference& reference, const ImagePyramid& pyramid,
+                                   int finest_level) {
+  const TrackingTarget& keyframe = reference.keyframe;
+  FrameOutcome result;
+  result.keyframe_sequence = keyframe.sequence;
+  const TrackingStart start{
+      .T_keyframe_previous = motion_.last_in_keyframe(),
+      .T_keyframe_predicted = motion_.predict_in_keyframe(frame.exposure),
+      .brightness = brightness_,
+      .error_px = start_error_px_,
+      .found_share = found_share_,
+      .seconds_since_previous =
+          in_doubt_ < kPatientFrames ? motion_.seconds_since_last(frame.exposure) : std::nullopt,
+      .finest_level = finest_level};
+  if (!pyramid.empty()) result.tracking = tracker_.track(keyframe, pyramid, start);
+  if (result.tracking.ok()) {
+    result.status = FrameOutcome::Status::kTracked;
+    untracked_ = 0;
+    learn(frame, reference, result.tracking, start);
+  } else {
+    result.status = FrameOutcome::Status::kPredicted;
+    result.tracking.T_keyframe_camera = start.T_keyframe_predicted;
+    ++untracked_;
+  }
+  in_doubt_ = result.tracking.well_found() ? 0 : in_doubt_ + 1;
+  result.T_world_camera = keyframe.T_world_camera * result.tracking.T_keyframe_camera;
+  result.becomes_keyframe = !frame.sweep.returns.empty() && !pyramid.empty() && !handed_over_ &&
+                            wants_keyframe(frame, reference, result.tracking);
+  return result;
+}
+
+bool TrackingStage::wants_keyframe(const SynchronizedFrame& frame,
+                                   const TrackingReference& reference,
+                                   const TrackingResult& result) const {
+  if (!result.ok()) return untracked_ >= kPatientFrames;
+  const bool old =
+      to_seconds(frame.exposure - reference.keyframe.exposure) >= config_.keyframes.max_age_s;
+  const bool little_in_common = result.visible_ratio < config_.keyframes.min_visible_ratio;
+  const bool second_of_all = reference.keyframes < 2;
+  return old || little_in_common || second_of_all;
+}
+
+void TrackingStage::learn(const SynchronizedFrame& frame, const TrackingReference& reference,
+                          const TrackingResult& result, const TrackingStart& start) {
+  const bool predicted = motion_.twist().has_value();
+  const Vector6d error = log_se3(start.T_keyframe_predicted.inverse() * result.T_keyframe_camera);
+  const double error_px =
+      reference.camera.intrinsics().fx *
+      (error.head<3>().norm() + error.tail<3>().norm() * reference.keyframe.mean_inverse_depth);
+  motion_.observe(frame.exposure, result.T_keyframe_camera, !result.well_found());
+  brightness_ = result.brightness;
+  found_share_ = result.found_share;
+  if (predicted) {
+    start_error_px_ = std::isfinite(start_error_px_)
+                          ? std::max(error_px, kErrorMemory * start_error_px_)
+                          : error_px;
+  }
+}
+
+}  // namespace sparsight

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "hal/calibration.h"
+#include "hal/frame_source.h"
+#include "slam/odometry_config.h"
+#include "slam/tracked_frame.h"
+#include "slam/tracking_reference.h"
+
+namespace sparsight {
+
+// The first half of the odometry (Sec. IV-C, and the keyframe rules of Sec. IV-B2): every frame
+// against the latest keyframe. It knows of the window only what the reference says, so that the
+// window may work on, on its own thread, and its word be taken up whenever it comes. Thread-bound;
+// track() is real-time-safe.
+class TrackingStage {
+ public:
+  TrackingStage(const RigCalibration& calibration, const OdometryConfig& config);
+
+  // `reference` is the newest there is; if it names another keyframe than the last did, tracking
+  // moves over to it first. `out` is reused. finest_level: see TrackingStart.
+  void track(const SynchronizedFrame& frame, const TrackingReference& reference, TrackedFrame& out,
+             int finest_level = 0);
+  // Sets aside the memory that frames of the calibrated camera take.
+  void prepare(TrackedFrame& out) const;
+
+ private:
+  void take_up(const TrackingReference& reference);
+  FrameOutcome follow(const SynchronizedFrame& frame, const TrackingReference& reference,
+                      const ImagePyramid& pyramid, int finest_level);
+  void learn(const SynchronizedFrame& frame, const TrackingReference& reference,
+             const TrackingResult& result, const TrackingStart& start);
+  bool wants_keyframe(const SynchronizedFrame& frame, const TrackingReference& reference,
+                      const TrackingResult& result) const;
+
+  RigCalibration calibration_;
+  OdometryConfig config_;
+  Tracker tracker_;
+  std::optional<std::uint64_t> reference_version_;
+  std::optional<std::uint64_t> keyframe_;     // tracked against
+  std::optional<std::uint64_t> handed_over_;  // became a keyframe; not considered by the window yet
+  Brightness brightness_at_hand_over_;
+
+  MotionModel motion_;
+  Brightness brightness_;  // of the last tracked frame relative to the keyframe
+  double start_error_px_ = std::numeric_limits<double>::infinity();
+  double found_share_ = 0.0;  // of the last tracked frame
+  int untracked_ = 0;         // frames in a row
+  int in_doubt_ = 0;          // frames in a row: their velocity is no ground to refuse another
+};
+
+}  // namespace sparsight

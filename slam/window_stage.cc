@@ -1,0 +1,133 @@
+#include "slam/window_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "slam/points/camera_returns.h"
+#include "slam/tracking/strangers.h"
+
+namespace sparsight {
+namespace {
+
+CloudPoint colored(const CameraReturn& r, const SynchronizedFrame& frame) {
+  CloudPoint point{.p_camera = r.p_camera, .intensity = r.intensity};
+  const auto u = static_cast<int>(std::lround(r.pixel.x()));
+  const auto v = static_cast<int>(std::lround(r.pixel.y()));
+  if (frame.color && !frame.color->empty()) {
+    const std::size_t at = 3 * (static_cast<std::size_t>(v) * frame.color->width + u);
+    std::copy_n(frame.color->rgb.begin() + static_cast<std::ptrdiff_t>(at), 3, point.rgb.begin());
+  } else {
+    point.rgb.fill(frame.grey.at(u, v));
+  }
+  return point;
+}
+
+double mean_inverse_depth(const std::vector<SelectedPoint>& points) {
+  double sum = 0.0;
+  for (const SelectedPoint& point : points) sum += 1.0 / point.p_camera.z();
+  return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
+}
+
+}  // namespace
+
+WindowStage::WindowStage(const RigCalibration& calibration, const OdometryConfig& config)
+    : calibration_(calibration),
+      config_(config),
+      camera_(calibration.camera),
+      window_(camera_, config.window, config.photometry),
+      self_calibration_(calibration.camera, config.self_calibration) {}
+
+bool WindowStage::accept(const SynchronizedFrame& frame, const TrackedFrame& tracked) {
+  considered_ = frame.sequence;
+  std::unique_ptr<Keyframe> keyframe = make_keyframe(frame, tracked);
+  if (static_cast<int>(keyframe->points.size()) < config_.tracker.min_points) return false;
+  window_.add(std::move(keyframe));
+  return true;
+}
+
+void WindowStage::optimize(std::optional<int> most_iterations) {
+  window_.optimize(most_iterations);
+  // What leaves goes by the terms that were minimised, before the camera changes them.
+  if (window_.full()) retire_oldest();
+  if (config_.self_calibration.enabled && window_.teach(self_calibration_)) {
+    camera_ = self_calibration_.camera();
+    window_.set_camera(camera_);
+  }
+}
+
+// Where it was tracked, from its keyframe as that is known now: while the frame waited, the window
+// may have been optimised.
+Eigen::Isometry3d WindowStage::pose_of(const TrackedFrame& tracked) {
+  const FrameOutcome& outcome = tracked.outcome;
+  if (window_.size() == 0 || window_.latest().sequence != outcome.keyframe_sequence) {
+    return outcome.T_world_camera;
+  }
+  return window_.latest().T_world_camera * outcome.tracking.T_keyframe_camera;
+}
+
+std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& frame,
+                                                     const TrackedFrame& tracked) {
+  const MotionModel& motion = tracked.motion;
+  const Eigen::Isometry3d T_exposure_keyframe = motion.at(frame.exposure).inverse();
+  const auto motion_around = [&](double seconds) -> Eigen::Isometry3d {
+    return T_exposure_keyframe *
+           motion.at(frame.exposure + std::chrono::nanoseconds(std::llround(1e9 * seconds)));
+  };
+  const std::vector<CameraReturn> returns =
+      returns_in_image(frame.sweep, camera_, calibration_.T_camera_lidar, motion_around);
+
+  auto keyframe = std::make_unique<Keyframe>();
+  keyframe->sequence = frame.sequence;
+  keyframe->exposure = frame.exposure;
+  keyframe->T_world_camera = pose_of(tracked);
+  keyframe->pyramid = tracked.pyramid;
+  keyframe->points = select_points(returns, frame.grey, camera_, config_.points);
+  keyframe->mean_inverse_depth = mean_inverse_depth(keyframe->points);
+  for (int level = 0; level < tracked.pyramid.levels(); ++level) {
+    keyframe->patches.push_back(make_patches(tracked.pyramid, level, camera_, keyframe->points,
+                                             config_.photometry.gradient_weight_constant));
+  }
+  if (config_.photometry.weigh_down_strangers && window_.size() > 0 &&
+      tracked.outcome.tracking.ok() &&
+      window_.latest().sequence == tracked.outcome.keyframe_sequence) {
+    weigh_down_strangers(keyframe->patches, window_.latest().pyramid.level(0), camera_,
+                         tracked.outcome.tracking.T_keyframe_camera);
+  }
+  keyframe->cloud_camera.reserve(returns.size());
+  for (const CameraReturn& r : returns) keyframe->cloud_camera.push_back(colored(r, frame));
+  return keyframe;
+}
+
+void WindowStage::retire_oldest() {
+  MarginalizedKeyframe marginalized = window_.marginalize_oldest();
+  Keyframe& keyframe = *marginalized.keyframe;
+  RetiredKeyframe result{.sequence = keyframe.sequence,
+                         .exposure = keyframe.exposure,
+                         .T_world_camera = keyframe.T_world_camera,
+                         .cloud_camera = std::move(keyframe.cloud_camera)};
+  if (window_.size() > 0) {
+    const Keyframe& successor = window_.oldest();
+    result.successor = {
+        .sequence = successor.sequence,
+        .T_keyframe_successor = keyframe.T_world_camera.inverse() * successor.T_world_camera,
+        .information = marginalized.successor_information};
+  }
+  retired_.push_back(std::move(result));
+}
+
+void WindowStage::describe(TrackingReference& out) {
+  out.version = ++version_;
+  out.considered = considered_;
+  out.camera = camera_;
+  out.keyframes = window_.size();
+  if (window_.size() > 0) out.keyframe = window_.latest();
+}
+
+std::vector<RetiredKeyframe> WindowStage::take_retired() { return std::exchange(retired_, {}); }
+
+void WindowStage::finish() {
+  while (window_.size() > 0) retire_oldest();
+}
+
+}  // namespace sparsight

@@ -1,0 +1,170 @@
+#include "realtime/pipeline/live_pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <thread>
+
+#include "realtime/pipeline/deterministic_replay.h"
+#include "realtime/sync/rig_frame_source.h"
+#include "tests/realtime/pipeline/made_walk.h"
+
+namespace sparsight {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Runs a walk through the threads; what comes out is kept as it came.
+struct LiveWalk {
+  explicit LiveWalk(int frames) : walk(frames) {
+    config.realtime = false;
+    odometry.keyframes.max_age_s = 0.2;
+  }
+
+  void run() {
+    walk.begin_at(HostClock::now() + 50ms);
+    LivePipeline pipeline(played_devices(walk), walk.calibration(), odometry, {}, outputs(),
+                          config);
+    pipeline.start();
+    while (!pipeline.ended()) {
+      status = pipeline.look();
+      highest = std::max(highest, status.shed);
+      if (status.state == LiveState::kTracking) seen_tracking = true;
+      std::this_thread::sleep_for(10ms);
+    }
+    pipeline.stop();
+    status = pipeline.look();
+    trajectory = pipeline.trajectory();
+    remarks = pipeline.remarks();
+  }
+
+  LiveOutputs outputs() {
+    LiveOutputs outputs;
+    outputs.on_event = [this](RigEvent&& event) { ++recorded[event.index()]; };
+    outputs.on_frame = [this](FrameRecord&& record) { frames.push_back(std::move(record)); };
+    outputs.on_preview = [this](const LivePose&) { ++previews; };
+    outputs.on_keyframe = [this](RetiredKeyframe&& keyframe, const KeyframeEffort&) {
+      keyframes.push_back(std::move(keyframe));
+    };
+    return outputs;
+  }
+
+  std::uint64_t raw_events() const {
+    return walk.frames().size() + walk.edges().size() + walk.packets().size();
+  }
+  std::uint64_t raw_recorded() const {
+    std::uint64_t sum = 0;
+    for (const auto& [index, count] : recorded) sum += index < 4 ? count : 0;
+    return sum;
+  }
+
+  MadeWalk walk;
+  OdometryConfig odometry = room_config();
+  LiveConfig config;
+  LiveStatus status;
+  Shed highest = Shed::kNothing;
+  bool seen_tracking = false;
+  std::map<std::size_t, std::uint64_t> recorded;  // by kind
+  std::vector<FrameRecord> frames;
+  std::vector<RetiredKeyframe> keyframes;
+  std::vector<TrajectoryPose> trajectory;
+  std::vector<std::string> remarks;
+  int previews = 0;
+};
+
+TEST(LivePipeline, TracksWhatItsDevicesDeliverAsTheReplayWould) {
+  LiveWalk live(36);
+  live.config.frames_in_flight = 64;  // none is dropped, however slow the machine
+  live.run();
+  EXPECT_TRUE(live.seen_tracking);
+  EXPECT_GE(live.status.frames, 26U) << "all but those before the edges are trusted";
+  EXPECT_EQ(live.status.frames_dropped, 0U);
+  // On a busy machine the first keyframe is not always made before the second frame comes.
+  const std::size_t untracked = live.status.frames_predicted;
+  EXPECT_LE(untracked, 3U);
+  ASSERT_EQ(live.frames.size(), live.status.frames);
+  for (std::size_t i = 0; i < live.frames.size(); ++i) EXPECT_EQ(live.frames[i].sequence, i);
+  EXPECT_EQ(live.raw_recorded(), live.raw_events());
+  EXPECT_EQ(live.keyframes.size(), live.status.keyframes) << "the window is emptied at the end";
+  EXPECT_GE(live.keyframes.size(), 3U);
+  EXPECT_TRUE(live.remarks.empty());
+
+  RigFrameSource source(std::make_unique<MadeEventSource>(live.walk.events()), live.walk.decoder(),
+                        live.walk.calibration(), {});
+  Odometry odometry(live.walk.calibration(), live.odometry);
+  const auto replayed = replay_deterministic(source, odometry, std::nullopt, {});
+  ASSERT_EQ(live.trajectory.size(), replayed.size());
+  for (std::size_t i = 1 + untracked; i < replayed.size(); ++i) {
+    EXPECT_EQ(live.trajectory[i].exposure, replayed[i].exposure);
+    EXPECT_LT(shift_between(live.trajectory[i].T_world_camera, replayed[i].T_world_camera), 0.01);
+  }
+}
+
+// How far each stage climbs is exact in overload_test.cc; here other programs may slow the rest.
+TEST(LivePipeline, LeavesOutIterationsWhenTheWindowIsBehindAndNeverRawData) {
+  LiveWalk live(45);
+  live.odometry.keyframes.max_age_s = 0.05;
+  live.config.probe = [](LiveStage stage) {
+    if (stage == LiveStage::kWindow) std::this_thread::sleep_for(250ms);
+  };
+  live.run();
+  EXPECT_GE(live.highest, Shed::kWindowIterations);
+  EXPECT_GE(live.status.windows_shortened, 1U);
+  EXPECT_LE(live.status.frames_predicted, 3U) << "tracking waits for nobody";
+  EXPECT_EQ(live.raw_recorded(), live.raw_events());
+}
+
+TEST(LivePipeline, LeavesOutLevelsWhenTrackingItselfIsBehind) {
+  LiveWalk live(45);
+  live.config.probe = [](LiveStage stage) {
+    if (stage == LiveStage::kTracking) std::this_thread::sleep_for(45ms);
+  };
+  live.run();
+  EXPECT_EQ(live.highest, Shed::kTrackingLevels);
+  EXPECT_GE(live.status.deadlines_missed, 5U);
+  EXPECT_GE(live.status.frames_coarse, 5U);
+  EXPECT_GE(live.status.previews_left_out, 5U);
+  EXPECT_EQ(live.raw_recorded(), live.raw_events());
+}
+
+TEST(LivePipeline, LeavesOutLoopSearchesWhenTheBackgroundIsBehind) {
+  LiveWalk live(45);
+  live.odometry.keyframes.max_age_s = 0.05;
+  live.odometry.window.size = 2;
+  live.config.probe = [](LiveStage stage) {
+    if (stage == LiveStage::kBackground) std::this_thread::sleep_for(120ms);
+  };
+  live.run();
+  EXPECT_GE(live.highest, Shed::kLoopSearch);
+  EXPECT_GE(live.status.searches_left_out, 1U);
+  EXPECT_EQ(live.keyframes.size(), live.status.keyframes) << "no keyframe is lost";
+}
+
+TEST(LivePipeline, GoesOnWithoutASensorThatDoesNotStart) {
+  class NoLidar final : public Lidar {
+   public:
+    Result<void> start() override { return fail(ErrorCode::kNotFound, "no network"); }
+    std::optional<LidarMessage> read(std::chrono::nanoseconds) override { return std::nullopt; }
+    void stop() override {}
+    DeviceState state() const override { return DeviceState::kStopped; }
+    LidarCounters counters() const override { return {}; }
+  };
+  LiveWalk live(12);
+  live.walk.begin_at(HostClock::now() + 50ms);
+  LiveDevices devices = played_devices(live.walk);
+  devices.lidar = std::make_shared<NoLidar>();
+  LivePipeline pipeline(std::move(devices), live.walk.calibration(), live.odometry, {},
+                        live.outputs(), live.config);
+  pipeline.start();
+  std::this_thread::sleep_for(650ms);
+  live.status = pipeline.look();
+  pipeline.stop();
+  EXPECT_EQ(live.status.lidar.state, DeviceState::kGone);
+  EXPECT_EQ(live.status.lidar.message, "no network");
+  EXPECT_EQ(live.recorded[0], live.walk.frames().size()) << "what comes is recorded";
+  EXPECT_EQ(live.status.state, LiveState::kSynchronizing) << "and without depth nothing is tracked";
+}
+
+}  // namespace
+}  // namespace sparsight

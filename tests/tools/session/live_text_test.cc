@@ -1,0 +1,54 @@
+#include "tools/session/live_text.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace sparsight {
+namespace {
+
+using namespace std::chrono_literals;
+
+LiveView a_second_of_a_run() {
+  LatencyHistogram poses;
+  for (int i = 0; i < 30; ++i) poses.add(50ms);
+  LiveView view;
+  view.before.exposure_to_pose = poses.snapshot();
+  for (int i = 0; i < 30; ++i) poses.add(20ms);
+  view.now.exposure_to_pose = poses.snapshot();
+  view.now.running = 12500ms;
+  view.now.state = LiveState::kTracking;
+  view.now.frames = 375;
+  view.now.lidar.state = DeviceState::kGone;
+  view.now.lidar.message = "no network";
+  view.now.pose = LivePose{.T_world_camera = Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3))};
+  return view;
+}
+
+TEST(LiveLine, ShowsTheLastSecondTheSensorsAndWhatIsLeftOut) {
+  LiveView view = a_second_of_a_run();
+  const std::string line = live_line(view);
+  EXPECT_NE(line.find("12.5 s  tracking  375 frames  pose after 20.5/20.5 ms"), std::string::npos)
+      << line;
+  EXPECT_NE(line.find("lidar gone"), std::string::npos);
+  EXPECT_NE(line.find("not recording"), std::string::npos);
+  EXPECT_EQ(line.find("overloaded"), std::string::npos);
+  view.now.shed = Shed::kLoopSearch;
+  EXPECT_NE(live_line(view).find("overloaded: left out up to loop search"), std::string::npos);
+}
+
+TEST(LiveJson, IsOneLineThatAMachineReads) {
+  LiveView view = a_second_of_a_run();
+  view.recorder = RecorderReport{.state = RecorderState::kDiskFull, .message = "full"};
+  const std::string line = live_json(view);
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  const auto json = nlohmann::json::parse(line);
+  EXPECT_EQ(json.at("state"), "tracking");
+  EXPECT_EQ(json.at("exposure_to_pose_ms").at("count"), 30);
+  EXPECT_EQ(json.at("lidar").at("message"), "no network");
+  EXPECT_EQ(json.at("position_m"), (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(json.at("recorder").at("state"), "ended: the disk is full");
+}
+
+}  // namespace
+}  // namespace sparsight

@@ -1,0 +1,251 @@
+#include "tools/session/live_session.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "drivers/recording/recorder.h"
+#include "realtime/executor/service_notifier.h"
+#include "realtime/executor/thread_setup.h"
+#include "realtime/pipeline/live_pipeline.h"
+#include "tools/configuration/rig_file.h"
+#include "tools/session/frame_figures.h"
+#include "tools/session/interrupt.h"
+#include "tools/session/live_text.h"
+#include "tools/session/process_load.h"
+#include "tools/session/session_recorder.h"
+#include "tools/session/session_summary.h"
+
+namespace sparsight {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kLookPeriod{100};
+constexpr std::chrono::seconds kShowPeriod{1};
+constexpr std::size_t kHeapTouched = std::size_t{64} << 20;
+
+StageTimes times_of(const LatencySnapshot& latency) {
+  return {.median_ms = to_milliseconds(latency.percentile(0.5)),
+          .p99_ms = to_milliseconds(latency.percentile(0.99)),
+          .max_ms = to_milliseconds(latency.max)};
+}
+
+Result<std::unique_ptr<Recorder>> start_recorder(const LiveRig& rig, const LiveOptions& options) {
+  if (!options.recording) return nullptr;
+  RecordingContent content;
+  content.attachments.push_back(
+      {kRigConfigurationAttachment, "application/toml", describe(rig.config)});
+  if (rig.config.calibration.camera.width > 0) content.calibration = rig.config.calibration;
+  content.utc_offset = current_utc_offset();
+  content.session["source"] = rig.source.string();
+  content.session["sparsight"] = SPARSIGHT_VERSION;
+  return Recorder::create(options.folder / "recording.mcap", content);
+}
+
+// What one live run consists of, and the loop that watches over it.
+class LiveRun {
+ public:
+  LiveRun(LiveRig rig, const LiveOptions& options, std::unique_ptr<Recorder> recorder)
+      : options_(options),
+        recorder_(std::move(recorder)),
+        session_(options.folder, description(rig, options), options.map && options.odometry,
+                 AtomicFile::Appears::kAtOnce),
+        given_(rig.config.calibration.camera),
+        pipeline_(std::move(rig.devices), rig.config.calibration, options.config,
+                  sync_config(rig.config), outputs(), live_config(rig, options)) {}
+
+  Result<void> begin() { return session_.begin(); }
+
+  void run() {
+    const InterruptRequest interrupt;
+    const ServiceNotifier service = ServiceNotifier::from_environment();
+    pipeline_.start();
+    service.ready();
+    const auto start = Clock::now();
+    for (Clock::time_point next = start; !interrupt.pending() && !pipeline_.ended();) {
+      if (options_.duration && Clock::now() - start >= *options_.duration) break;
+      look(service);
+      next += kLookPeriod;
+      std::this_thread::sleep_until(next);
+    }
+    service.stopping();
+    end(Clock::now() - start);
+  }
+
+  Result<LiveResult> result() {
+    if (auto written = session_.write(); !written) return tl::unexpected(written.error());
+    auto failure = options_.odometry ? failure_of(session_.session()) : std::nullopt;
+    return LiveResult{std::move(session_.session()), std::move(failure)};
+  }
+
+ private:
+  static SessionDescription description(const LiveRig& rig, const LiveOptions& options) {
+    return {.source = rig.source,
+            .profile_name = options.profile_name,
+            .config = options.config,
+            .calibration = rig.config.calibration};
+  }
+  static LiveConfig live_config(const LiveRig& rig, const LiveOptions& options) {
+    return {.rate_hz = rig.config.camera.rate_hz,
+            .realtime = options.realtime,
+            .odometry = options.odometry};
+  }
+
+  LiveOutputs outputs() {
+    LiveOutputs outputs;
+    if (recorder_) {
+      outputs.on_event = [this](RigEvent&& event) { recorder_->record(std::move(event)); };
+      outputs.on_preview = [this](const LivePose& pose) {
+        recorder_->record(RecordedPose{pose.exposure, pose.T_world_camera});
+      };
+    }
+    // A fault is told when its kind first comes, and counted from then on.
+    outputs.on_frame = [this](FrameRecord&& record) {
+      for (const Error& fault : session_.add(record)) {
+        say(fmt::format("frame {}: {} (more of this kind are only counted)", record.sequence,
+                        fault.message));
+      }
+    };
+    outputs.on_keyframe = [this](RetiredKeyframe&& keyframe, const KeyframeEffort&) {
+      session_.add(keyframe);
+    };
+    return outputs;
+  }
+
+  void say(const std::string& line) const {
+    if (!options_.quiet) fmt::print(stderr, "{}\n", line);
+  }
+
+  void look(const ServiceNotifier& service) {
+    status_ = pipeline_.look();
+    for (const std::string& remark : pipeline_.remarks()) {
+      say("note: " + remark);
+      session_.session().notes.push_back(remark);
+    }
+    tell_devices();
+    const auto now = Clock::now();
+    if (const auto interval = service.watchdog_interval(); interval && now >= next_feed_) {
+      next_feed_ = now + *interval;
+      if (pipeline_.standing_still().empty()) service.feed_watchdog();
+    }
+    if (now < next_show_) return;
+    next_show_ += kShowPeriod;
+    show(service);
+  }
+
+  // What becomes of a sensor is said when it changes.
+  void tell_devices() {
+    const std::pair<const char*, const DeviceStatus*> devices[] = {
+        {"camera", &status_.camera}, {"lidar", &status_.lidar}, {"trigger", &status_.trigger}};
+    for (std::size_t i = 0; i < std::size(devices); ++i) {
+      const auto& [name, device] = devices[i];
+      if (std::exchange(told_[i], device->state) == device->state) continue;
+      say(fmt::format("{} is {}{}{}", name, name_of(device->state),
+                      device->message.empty() ? "" : ": ", device->message));
+    }
+  }
+
+  void show(const ServiceNotifier& service) {
+    LiveView view{.now = status_, .before = shown_, .resident_bytes = resident_bytes()};
+    if (recorder_) view.recorder = recorder_->report();
+    const auto cpu = processor_time();
+    const auto wall = Clock::now();
+    view.cpu_share = to_seconds(cpu - shown_cpu_) / std::max(1e-3, to_seconds(wall - shown_wall_));
+    shown_cpu_ = cpu;
+    shown_wall_ = wall;
+    shown_ = status_;
+    const std::string line = live_line(view);
+    service.status(line);
+    if (options_.json) {
+      fmt::print("{}\n", live_json(view));
+      std::fflush(stdout);
+    } else {
+      say(line);
+    }
+  }
+
+  void end(std::chrono::nanoseconds wall) {
+    pipeline_.stop();
+    status_ = pipeline_.look();
+    Session& session = session_.session();
+    if (recorder_) {
+      const RecorderReport report = recorder_->finish();
+      if (!report.message.empty()) session.notes.push_back(report.message);
+      if (report.lost_anything_raw()) {
+        session.notes.push_back(fmt::format(
+            "the disk was too slow: {} frames and {} packets or edges are not in the recording",
+            report.frames_dropped, report.packets_dropped));
+      }
+    }
+    session.live = figures(wall);
+    note_losses(session);
+    if (options_.odometry) tell_camera_found(given_, pipeline_.camera(), session);
+    session_.end(pipeline_.trajectory(), wall);
+  }
+
+  LiveFigures figures(std::chrono::nanoseconds wall) const {
+    LiveFigures live{.exposure_to_pose = times_of(status_.exposure_to_pose),
+                     .arrival_to_pose = times_of(status_.arrival_to_pose),
+                     .wake_up = times_of(status_.wake_up),
+                     .deadlines_missed = status_.deadlines_missed,
+                     .frames_dropped = status_.frames_dropped,
+                     .events_unrecorded = status_.events_dropped()};
+    live.work_left_out = status_.previews_left_out + status_.searches_left_out +
+                         status_.windows_shortened + status_.frames_coarse;
+    if (status_.first_pose) live.first_pose_s = to_seconds(*status_.first_pose);
+    live.cpu_share = to_seconds(processor_time()) / std::max(1e-3, to_seconds(wall));
+    live.resident_bytes = resident_bytes();
+    return live;
+  }
+
+  void note_losses(Session& session) const {
+    if (status_.frames_dropped > 0) {
+      session.notes.push_back(
+          fmt::format("{} frames came too fast to be tracked", status_.frames_dropped));
+    }
+    if (status_.events_dropped() > 0) {
+      session.notes.push_back(
+          fmt::format("{} raw events came too fast to be recorded", status_.events_dropped()));
+    }
+  }
+
+  const LiveOptions& options_;
+  std::unique_ptr<Recorder> recorder_;
+  SessionRecorder session_;
+  CameraIntrinsics given_;
+  LivePipeline pipeline_;  // after what its outputs use
+  LiveStatus status_;
+  LiveStatus shown_;
+  std::chrono::nanoseconds shown_cpu_ = processor_time();
+  Clock::time_point shown_wall_ = Clock::now();
+  Clock::time_point next_show_ = Clock::now() + kShowPeriod;
+  Clock::time_point next_feed_ = Clock::now();
+  DeviceState told_[3] = {DeviceState::kStreaming, DeviceState::kStreaming,
+                          DeviceState::kStreaming};
+};
+
+}  // namespace
+
+Result<LiveResult> run_live(LiveRig rig, const LiveOptions& options) {
+  if (options.odometry && rig.config.calibration.camera.width == 0) {
+    return fail(ErrorCode::kMissingField,
+                fmt::format("{}: has no [calibration.camera]; calibrate the rig, or only record",
+                            rig.source.string()));
+  }
+  if (options.realtime) {
+    const auto remark = set_up_memory(kHeapTouched);
+    if (remark && !options.quiet) fmt::print(stderr, "note: {}\n", *remark);
+  }
+  auto recorder = start_recorder(rig, options);
+  if (!recorder) return tl::unexpected(recorder.error());
+  const auto run = std::make_unique<LiveRun>(std::move(rig), options, std::move(*recorder));
+  if (auto begun = run->begin(); !begun) return tl::unexpected(begun.error());
+  run->run();
+  return run->result();
+}
+
+}  // namespace sparsight
