@@ -15,7 +15,6 @@ constexpr float kHallHalfLength = 13.0F;
 constexpr float kHalfBreadth = 9.0F;
 constexpr float kHallHeight = 6.4F;
 constexpr float kBrickHeight = 1.4F;
-constexpr float kQuarterTurn = static_cast<float>(M_PI) / 2.0F;
 
 class HallBuilder {
  public:

@@ -7,7 +7,10 @@ namespace sparsight::simulated {
 namespace {
 
 constexpr std::uint64_t kPacketsPerBundle = 28;
-constexpr std::uint64_t kPacketsPerPosition = 14;  // manual, p. 60
+// Manual, p. 60: after 14 packets, of single returns.
+std::uint64_t packets_per_position(const SimulationOptions& options) {
+  return options.return_mode == ReturnMode::kDual ? 28 : 14;
+}
 
 }  // namespace
 
@@ -26,11 +29,12 @@ PacketStream::PacketStream(const LidarScanner& scanner, const LidarClock& clock,
 
 std::vector<LidarMessage> PacketStream::make(std::uint64_t bundle) const {
   std::vector<LidarMessage> messages;
+  const std::uint64_t per_position = packets_per_position(options_);
   const std::uint64_t end = std::min(packets_, (bundle + 1) * kPacketsPerBundle);
   for (std::uint64_t number = bundle * kPacketsPerBundle; number < end; ++number) {
     if (faults_.away(DeviceKind::kLidar, clock_.packet_start(number))) continue;
     if (!faults_.loses_packet(number)) messages.emplace_back(scanner_.packet(number));
-    if (number % kPacketsPerPosition == kPacketsPerPosition / 2) {
+    if (number % per_position == per_position / 2) {
       messages.emplace_back(scanner_.position(number));
     }
   }

@@ -59,6 +59,10 @@ Elapsed edge_latency(std::uint64_t seed, std::uint64_t number) {
   return from_seconds(3e-6 + 4e-6 * std::abs(random.gaussian()) + tail);
 }
 
+Elapsed packet_interval(const SimulationOptions& options) {
+  return options.return_mode == ReturnMode::kDual ? kVlp16DualPacketInterval : kVlp16PacketInterval;
+}
+
 LidarClock::LidarClock(const SimulationOptions& options, const FaultPlan& faults,
                        const PulseClock& pulses)
     : options_(options),
@@ -76,7 +80,7 @@ Elapsed LidarClock::packet_start(std::uint64_t packet) const { return firing(pac
 
 Elapsed LidarClock::firing(std::uint64_t packet, std::int64_t offset_ns) const {
   const std::int64_t ticks =
-      static_cast<std::int64_t>(packet) * kVlp16PacketInterval.count() + offset_ns;
+      static_cast<std::int64_t>(packet) * packet_interval(options_).count() + offset_ns;
   return phase_ +
          Elapsed{static_cast<std::int64_t>(std::llround(static_cast<double>(ticks) / rate_))};
 }

@@ -44,6 +44,9 @@ class PulseClock {
 // Latency of an interrupt: a few microseconds, now and then some ten.
 Elapsed edge_latency(std::uint64_t seed, std::uint64_t number);
 
+// From packet to packet by the LiDAR's clock: a dual one is full in half the time.
+Elapsed packet_interval(const SimulationOptions& options);
+
 // What the LiDAR's own clock shows, and when its lasers fire by it.
 class LidarClock {
  public:

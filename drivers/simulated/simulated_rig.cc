@@ -70,7 +70,7 @@ RigConfig simulated_rig_config(const SimulationOptions& options) {
   config.camera.exposure = options.exposure;
   config.lidar.sensor_address = "";
   config.lidar.rpm = 600;
-  config.lidar.return_mode = ReturnMode::kStrongest;
+  config.lidar.return_mode = options.return_mode;
   config.trigger.chip = "simulated";
   if (options.pps) config.trigger.pps_line = 1;
   return config;

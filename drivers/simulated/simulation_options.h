@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hal/device.h"
+#include "hal/rig_config.h"
 #include "hal/time.h"
 
 namespace sparsight {
@@ -51,6 +52,9 @@ struct SimulationOptions {
 
   double range_noise_m = 0.01;  // one sigma; the datasheet's 3 cm is the bound of it
   double lidar_clock_drift_ppm = 35.0;
+  // Strongest sees along the middle of the beam; the others see all of its width, so that at an
+  // edge there are two echoes.
+  ReturnMode return_mode = ReturnMode::kStrongest;
   bool pps = true;  // wired to the LiDAR and to the host; without it the LiDAR's clock runs free
 
   SimulatedFaults faults;

@@ -18,6 +18,9 @@ const std::map<std::string, SimulatedScene> kScenes{{"corridor", SimulatedScene:
 const std::map<std::string, DeviceKind> kDevices{{"camera", DeviceKind::kCamera},
                                                  {"lidar", DeviceKind::kLidar},
                                                  {"trigger", DeviceKind::kTrigger}};
+const std::map<std::string, ReturnMode> kReturnModeNames{{"strongest", ReturnMode::kStrongest},
+                                                         {"last", ReturnMode::kLast},
+                                                         {"dual", ReturnMode::kDual}};
 
 struct SimulateArguments {
   SimulateSession session;
@@ -124,6 +127,12 @@ void add_look(CLI::App& command, SimulateArguments& arguments) {
                    "Blur by motion; takes five times as long");
   command.add_flag("--rectified", arguments.rectified, "A lens without distortion");
   command.add_flag("--no-pps", arguments.no_pps, "No PPS: the LiDAR's clock runs free");
+  command
+      .add_option("--return-mode", options.return_mode,
+                  "What the LiDAR tells: strongest, last or dual returns")
+      ->transform(CLI::CheckedTransformer(kReturnModeNames, CLI::ignore_case)
+                      .description("{strongest,last,dual}"))
+      ->default_str("strongest");
   command.add_option("--lidar-drift-ppm", options.lidar_clock_drift_ppm, "Of the LiDAR's clock")
       ->check(CLI::Range(-200.0, 200.0))
       ->capture_default_str();
