@@ -165,7 +165,8 @@ void Odometry::State::retire_oldest() {
   RetiredKeyframe result{.sequence = keyframe.sequence,
                          .exposure = keyframe.exposure,
                          .T_world_camera = keyframe.T_world_camera,
-                         .cloud_camera = std::move(keyframe.cloud_camera)};
+                         .cloud_camera = std::move(keyframe.cloud_camera),
+                         .pyramid = std::move(keyframe.pyramid)};
   if (window.size() > 0) {
     const Keyframe& successor = window.oldest();
     result.successor = {

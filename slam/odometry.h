@@ -8,6 +8,7 @@
 #include "hal/frame_source.h"
 #include "slam/calibration/self_calibration.h"
 #include "slam/keyframe.h"
+#include "slam/loop/loop_config.h"
 #include "slam/points/point_selection.h"
 #include "slam/tracking/tracker.h"
 #include "slam/window/window_optimizer.h"
@@ -27,6 +28,7 @@ struct OdometryConfig {
   KeyframeConfig keyframes;
   WindowConfig window;
   SelfCalibrationConfig self_calibration;
+  LoopConfig loop;  // of what follows the odometry; nothing in here depends on it
 };
 
 // A keyframe that has left the window: its pose is final for the odometry.
@@ -42,6 +44,7 @@ struct RetiredKeyframe {
   };
   std::optional<Successor> successor;  // none for the last keyframe
   std::vector<CloudPoint> cloud_camera;
+  ImagePyramid pyramid;
 };
 
 // What became of one frame. A frame that could not be tracked carries a predicted pose and says so.

@@ -23,11 +23,13 @@ class AnchoredTrajectory {
   void settle(const RetiredKeyframe& keyframe) {
     T_world_keyframe_[keyframe.sequence] = keyframe.T_world_camera;
   }
-  std::vector<TrajectoryPose> poses() const {
+  std::vector<TrajectoryPose> poses() const { return poses(T_world_keyframe_); }
+  std::vector<TrajectoryPose> poses(
+      const std::map<std::uint64_t, Eigen::Isometry3d>& T_world_keyframes) const {
     std::vector<TrajectoryPose> result = frames_;
     for (std::size_t i = 0; i < result.size(); ++i) {
-      const auto keyframe = T_world_keyframe_.find(anchors_[i]);
-      if (keyframe != T_world_keyframe_.end()) {
+      const auto keyframe = T_world_keyframes.find(anchors_[i]);
+      if (keyframe != T_world_keyframes.end()) {
         result[i].T_world_camera = keyframe->second * frames_[i].T_world_camera;
       }
     }
@@ -42,13 +44,14 @@ class AnchoredTrajectory {
 
 }  // namespace
 
-std::vector<TrajectoryPose> replay_deterministic(FrameSource& source, Odometry& odometry,
-                                                 std::optional<std::size_t> max_frames,
-                                                 const ReplayCallbacks& callbacks) {
+ReplayTrajectories replay_deterministic(FrameSource& source, Odometry& odometry,
+                                        std::optional<std::size_t> max_frames,
+                                        const ReplayCallbacks& callbacks, LoopCloser* loops) {
   AnchoredTrajectory trajectory;
   const auto collect_retired = [&] {
     for (RetiredKeyframe& keyframe : odometry.take_retired()) {
       trajectory.settle(keyframe);
+      if (loops != nullptr) loops->add(keyframe, odometry.camera());
       if (callbacks.on_keyframe) callbacks.on_keyframe(std::move(keyframe));
     }
   };
@@ -71,7 +74,13 @@ std::vector<TrajectoryPose> replay_deterministic(FrameSource& source, Odometry& 
   }
   odometry.finish();
   collect_retired();
-  return trajectory.poses();
+  ReplayTrajectories result{.odometry = trajectory.poses()};
+  if (loops != nullptr) {
+    loops->finish();
+    result.corrected_keyframes = loops->poses();
+    result.corrected = trajectory.poses(result.corrected_keyframes);
+  }
+  return result;
 }
 
 }  // namespace sparsight

@@ -14,5 +14,6 @@ void add_benchmark(CLI::App& app, int& exit_code);
 void add_recover(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_optimise(CLI::App& app, int& exit_code);
+void add_train_vocabulary(CLI::App& app, int& exit_code);
 
 }  // namespace sparsight

@@ -48,7 +48,7 @@ class RecordedSession : public ::testing::Test {
                     .T_world_camera = frame.outcome.T_world_camera,
                     .cloud_camera = {{.p_camera = {0, 0, 5}, .rgb = {1, 2, 3}}}});
     }
-    recorder.end(std::move(trajectory), std::chrono::seconds(5));
+    recorder.end({.odometry = std::move(trajectory)}, std::chrono::seconds(5));
   }
 
   nlohmann::json json() const { return nlohmann::json::parse(text_of(folder_ / "session.json")); }
