@@ -179,9 +179,12 @@ bool LoopCloser::finish() {
 }
 
 std::map<std::uint64_t, Eigen::Isometry3d> LoopCloser::poses() const {
+  const State& s = *state_;
+  const bool as_odometry = s.found.empty();  // to the last digit
   std::map<std::uint64_t, Eigen::Isometry3d> result;
-  for (std::size_t i = 0; i < state_->places.size(); ++i) {
-    result[state_->places[i].sequence] = state_->graph.graph().T_world_node[i];
+  for (std::size_t i = 0; i < s.places.size(); ++i) {
+    result[s.places[i].sequence] =
+        as_odometry ? s.places[i].T_odometry_camera : s.graph.graph().T_world_node[i];
   }
   return result;
 }

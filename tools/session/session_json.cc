@@ -68,14 +68,18 @@ Json json_of(const LoopStatistics& statistics) {
 Json json_of(const std::vector<LoopClosure>& loops) {
   Json list = Json::array();
   for (const LoopClosure& loop : loops) {
-    list.push_back({{"frame", loop.current},
-                    {"seen_before_in_frame", loop.candidate},
-                    {"distance_m", loop.check.T_current_candidate.translation().norm()},
-                    {"pose_inliers", loop.check.pose_inliers},
-                    {"disagreement_m", loop.check.disagreement_m},
-                    {"disagreement_deg", loop.check.disagreement_deg},
-                    {"overlap", loop.check.overlap},
-                    {"found_share", loop.check.found_share}});
+    const Eigen::Vector3d t = loop.check.T_current_candidate.translation();
+    const Eigen::Quaterniond q(loop.check.T_current_candidate.linear());
+    list.push_back(
+        {{"frame", loop.current},
+         {"seen_before_in_frame", loop.candidate},
+         {"T_frame_before_tx_ty_tz_qx_qy_qz_qw", {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}},
+         {"distance_m", t.norm()},
+         {"pose_inliers", loop.check.pose_inliers},
+         {"disagreement_m", loop.check.disagreement_m},
+         {"disagreement_deg", loop.check.disagreement_deg},
+         {"overlap", loop.check.overlap},
+         {"found_share", loop.check.found_share}});
   }
   return list;
 }
