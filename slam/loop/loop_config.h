@@ -17,7 +17,7 @@ struct LoopVerificationConfig {
 
 // Loop closure, Sec. IV-E.
 struct LoopConfig {
-  bool enabled = false;
+  bool enabled = true;
   int image_level =
       1;  // of the pyramid: places are recognised and verified in images halved so often
   int features = 800;          // ORB features per keyframe
