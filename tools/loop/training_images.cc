@@ -75,6 +75,7 @@ std::vector<GreyImage> rendered_images(const RenderingPlan& plan) {
   options.rate_hz = plan.rate_hz;
   options.width = plan.width;
   options.height = plan.height;
+  options.light_detail = plan.light_detail;
   options.image_noise = 0.0;
   SimulatedRig rig(options);
   std::vector<GreyImage> images;

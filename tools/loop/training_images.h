@@ -20,6 +20,7 @@ struct RenderingPlan {
   double rate_hz = 2.0;
   int width = 400;  // of the keyframe images that places are recognised in
   int height = 300;
+  double light_detail = 1.0;
   std::uint64_t seed = 1;
 };
 std::vector<GreyImage> rendered_images(const RenderingPlan& plan);
