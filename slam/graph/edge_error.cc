@@ -32,9 +32,9 @@ Eigen::Matrix3d bend(const Eigen::Vector3d& phi, const Eigen::Vector3d& rho) {
   }
   const Eigen::Matrix3d P = hat(phi);
   const Eigen::Matrix3d V = hat(rho);
-  const Eigen::Matrix3d PVP = P * V * P;
-  return 0.5 * V + c1 * (P * V + V * P + PVP) + c2 * (P * P * V + V * P * P - 3.0 * PVP) +
-         c3 * (PVP * P + P * PVP);
+  const Eigen::Matrix3d turned = P * V * P;
+  return 0.5 * V + c1 * (P * V + V * P + turned) + c2 * (P * P * V + V * P * P - 3.0 * turned) +
+         c3 * (turned * P + P * turned);
 }
 
 }  // namespace
