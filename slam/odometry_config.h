@@ -1,6 +1,7 @@
 #pragma once
 
 #include "slam/calibration/self_calibration.h"
+#include "slam/loop/loop_config.h"
 #include "slam/points/point_selection.h"
 #include "slam/tracking/tracker.h"
 #include "slam/window/window_optimizer.h"
@@ -20,6 +21,7 @@ struct OdometryConfig {
   KeyframeConfig keyframes;
   WindowConfig window;
   SelfCalibrationConfig self_calibration;
+  LoopConfig loop;  // of what follows the odometry; nothing in here depends on it
 };
 
 }  // namespace sparsight

@@ -24,6 +24,7 @@ struct RetiredKeyframe {
   };
   std::optional<Successor> successor;  // none for the last keyframe
   std::vector<CloudPoint> cloud_camera;
+  ImagePyramid pyramid;
 };
 
 }  // namespace sparsight

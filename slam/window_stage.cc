@@ -105,7 +105,8 @@ void WindowStage::retire_oldest() {
   RetiredKeyframe result{.sequence = keyframe.sequence,
                          .exposure = keyframe.exposure,
                          .T_world_camera = keyframe.T_world_camera,
-                         .cloud_camera = std::move(keyframe.cloud_camera)};
+                         .cloud_camera = std::move(keyframe.cloud_camera),
+                         .pyramid = std::move(keyframe.pyramid)};
   if (window_.size() > 0) {
     const Keyframe& successor = window_.oldest();
     result.successor = {

@@ -16,7 +16,10 @@ class AnchoredTrajectory {
   // The pose with which the keyframe has left the window.
   void settle(std::uint64_t keyframe, const Eigen::Isometry3d& T_world_keyframe);
   // One per frame; one whose keyframe never settled stands relative to it.
-  std::vector<TrajectoryPose> poses() const;
+  std::vector<TrajectoryPose> poses() const { return poses(T_world_keyframe_); }
+  // The same with the keyframes elsewhere.
+  std::vector<TrajectoryPose> poses(
+      const std::map<std::uint64_t, Eigen::Isometry3d>& T_world_keyframes) const;
 
  private:
   std::vector<TrajectoryPose> frames_;  // relative to their anchors

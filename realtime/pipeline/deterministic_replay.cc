@@ -13,13 +13,14 @@ std::chrono::nanoseconds time_of(const std::function<void()>& stage) {
 
 }  // namespace
 
-std::vector<TrajectoryPose> replay_deterministic(FrameSource& source, Odometry& odometry,
-                                                 std::optional<std::size_t> max_frames,
-                                                 const ReplayCallbacks& callbacks) {
+ReplayTrajectories replay_deterministic(FrameSource& source, Odometry& odometry,
+                                        std::optional<std::size_t> max_frames,
+                                        const ReplayCallbacks& callbacks, LoopCloser* loops) {
   AnchoredTrajectory trajectory;
   const auto collect_retired = [&] {
     for (RetiredKeyframe& keyframe : odometry.take_retired()) {
       trajectory.settle(keyframe.sequence, keyframe.T_world_camera);
+      if (loops != nullptr) loops->add(keyframe, odometry.camera());
       if (callbacks.on_keyframe) callbacks.on_keyframe(std::move(keyframe));
     }
   };
@@ -42,7 +43,13 @@ std::vector<TrajectoryPose> replay_deterministic(FrameSource& source, Odometry& 
   }
   odometry.finish();
   collect_retired();
-  return trajectory.poses();
+  ReplayTrajectories result{.odometry = trajectory.poses()};
+  if (loops != nullptr) {
+    loops->finish();
+    result.corrected_keyframes = loops->poses();
+    result.corrected = trajectory.poses(result.corrected_keyframes);
+  }
+  return result;
 }
 
 }  // namespace sparsight

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <vector>
 
 #include "hal/frame_source.h"
 #include "realtime/pipeline/frame_record.h"
+#include "slam/loop/loop_closer.h"
 #include "slam/odometry.h"
 
 namespace sparsight {
@@ -16,11 +19,19 @@ struct ReplayCallbacks {
   std::function<void(RetiredKeyframe&&)> on_keyframe;
 };
 
+// One pose per frame, each re-anchored to the final pose of its keyframe.
+struct ReplayTrajectories {
+  std::vector<TrajectoryPose> odometry;   // as the keyframes left the window
+  std::vector<TrajectoryPose> corrected;  // as the pose graph has them; empty without a LoopCloser
+  // T_world_keyframe by sequence, likewise.
+  std::map<std::uint64_t, Eigen::Isometry3d> corrected_keyframes;
+};
+
 // Runs the stages on one schedule, without threads or a wall clock: the same frames give the same
-// bytes. Returns one pose per frame, each re-anchored to the final pose of its keyframe.
-// max_frames: stop early.
-std::vector<TrajectoryPose> replay_deterministic(FrameSource& source, Odometry& odometry,
-                                                 std::optional<std::size_t> max_frames,
-                                                 const ReplayCallbacks& callbacks);
+// bytes. max_frames: stop early. loops: closes them, if not null.
+ReplayTrajectories replay_deterministic(FrameSource& source, Odometry& odometry,
+                                        std::optional<std::size_t> max_frames,
+                                        const ReplayCallbacks& callbacks,
+                                        LoopCloser* loops = nullptr);
 
 }  // namespace sparsight

@@ -29,6 +29,7 @@ std::vector<std::string> arguments_of(const ReplayRun& run) {
                                         run.sequence.folder.string(),
                                         "--rays",
                                         std::to_string(run.rays),
+                                        "--no-loops",  // as the figures published
                                         "--profile",
                                         run.profile,
                                         "--output",

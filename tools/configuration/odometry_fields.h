@@ -72,6 +72,35 @@ void visit_fields(Visitor& profile, SelfCalibrationConfig& calibration) {
 }
 
 template <typename Visitor>
+void visit_fields(Visitor& profile, LoopVerificationConfig& verification) {
+  profile.field("min_pose_inliers", verification.min_pose_inliers, {6, 10000});
+  profile.field("max_reprojection_px", verification.max_reprojection_px, {0.1, 100.0});
+  profile.field("max_disagreement_m", verification.max_disagreement_m, {1e-6, 10.0});
+  profile.field("max_disagreement_deg", verification.max_disagreement_deg, {1e-6, 90.0});
+  profile.field("max_from_start_m", verification.max_from_start_m, {1e-6, 100.0});
+  profile.field("max_from_start_deg", verification.max_from_start_deg, {1e-6, 180.0});
+  profile.field("min_overlap", verification.min_overlap, kShare);
+  profile.field("min_found_share", verification.min_found_share, kShare);
+  profile.field("min_points", verification.min_points, {6, 100000});
+}
+
+template <typename Visitor>
+void visit_fields(Visitor& profile, LoopConfig& loop) {
+  profile.field("enabled", loop.enabled);
+  profile.field("image_level", loop.image_level, {0, 4});
+  profile.field("features", loop.features, {50, 10000});
+  profile.field("neighbours", loop.neighbours, {0, 20});
+  profile.field("recent_keyframes", loop.recent_keyframes, {1, 100000});
+  profile.field("consistent_queries", loop.consistent_queries, {1, 20});
+  profile.field("checks_per_keyframe", loop.checks_per_keyframe, {1, 100});
+  profile.field("dcs_phi", loop.dcs_phi, {1e-3, 1e6});
+  profile.field("odometry_floor_deg", loop.odometry_floor_deg, {1e-6, 10.0});
+  profile.field("odometry_floor_m", loop.odometry_floor_m, {1e-6, 10.0});
+  profile.field("odometry_floor_share", loop.odometry_floor_share, kShare);
+  profile.table("verification", loop.verification);
+}
+
+template <typename Visitor>
 void visit_fields(Visitor& profile, OdometryConfig& odometry) {
   profile.table("points", odometry.points);
   profile.table("photometry", odometry.photometry);
@@ -79,6 +108,7 @@ void visit_fields(Visitor& profile, OdometryConfig& odometry) {
   profile.table("keyframes", odometry.keyframes);
   profile.table("window", odometry.window);
   profile.table("self_calibration", odometry.self_calibration);
+  profile.table("loop", odometry.loop);
 }
 
 }  // namespace sparsight

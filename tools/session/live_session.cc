@@ -184,7 +184,7 @@ class LiveRun {
     session.live = figures(wall);
     note_losses(session);
     if (options_.odometry) tell_camera_found(given_, pipeline_.camera(), session);
-    session_.end(pipeline_.trajectory(), wall);
+    session_.end({.odometry = pipeline_.trajectory()}, wall);
   }
 
   LiveFigures figures(std::chrono::nanoseconds wall) const {

@@ -38,6 +38,16 @@ std::vector<std::uint64_t> predicted_frames(const Session& session) {
   return sequences;
 }
 
+// Both ends of each.
+Positions positions_of_loops(const Session& session) {
+  std::vector<std::uint64_t> sequences;
+  for (const LoopClosure& loop : session.loops) {
+    sequences.push_back(loop.candidate);
+    sequences.push_back(loop.current);
+  }
+  return positions_at(session, sequences);
+}
+
 // The camera looks along z when a session begins; on the chart, up.
 Curve from_above(const Positions& positions) {
   Curve curve;
@@ -103,9 +113,13 @@ Chart path_chart(const Session& session) {
         {.kind = kind, .name = name, .ink = ink, .points = from_above(positions)});
   };
   add(Kind::kPath, "Sparsight", "estimate", positions_of(session.trajectory));
+  if (!session.odometry.empty()) {
+    add(Kind::kPath, "odometry, without loops", "dashed", positions_of(session.odometry));
+  }
   add(Kind::kDots, "keyframes", "keyframe", positions_at(session, session.keyframes));
   add(Kind::kDots, "predicted, not measured", "fault",
       positions_at(session, predicted_frames(session)));
+  if (!session.loops.empty()) add(Kind::kDots, "loops", "loop", positions_of_loops(session));
   if (!session.trajectory.empty()) {
     add(Kind::kDots, "start", "start", {session.trajectory.front().T_world_camera.translation()});
   }

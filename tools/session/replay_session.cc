@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/loop/vocabulary_file.h"
 #include "tools/session/ground_truth.h"
 #include "tools/session/interrupt.h"
 #include "tools/session/open_source.h"
@@ -75,18 +76,25 @@ void run(FrameSource& source, const ReplayOptions& options, SessionRecorder& rec
   const InterruptRequest interrupt;
   InterruptibleSource interruptible(source, interrupt);
   const auto start = Clock::now();
-  std::vector<TrajectoryPose> trajectory;
+  ReplayTrajectories trajectories;
   try {
     Odometry odometry(source.calibration(), options.config);
-    trajectory = replay_deterministic(interruptible, odometry, options.max_frames,
-                                      {.on_frame = on_frame, .on_keyframe = on_keyframe});
+    std::optional<LoopCloser> loops;
+    if (options.config.loop.enabled) loops.emplace(options.config, built_in_vocabulary());
+    trajectories = replay_deterministic(interruptible, odometry, options.max_frames,
+                                        {.on_frame = on_frame, .on_keyframe = on_keyframe},
+                                        loops ? &*loops : nullptr);
+    if (loops) {
+      recorder.session().loops = loops->loops();
+      recorder.session().loop_statistics = loops->statistics();
+    }
     tell_camera_found(source.calibration().camera, odometry.camera(), recorder.session());
     if (interrupt.pending()) recorder.session().broke_off = "stopped on request";
   } catch (const std::exception& error) {
     recorder.session().broke_off = fmt::format("the replay broke off: {}", error.what());
   }
   progress.end();
-  recorder.end(std::move(trajectory), Clock::now() - start);
+  recorder.end(std::move(trajectories), Clock::now() - start);
 }
 
 // A ground truth that cannot be read is told before hours are spent, not after.

@@ -20,6 +20,7 @@ struct ReplayOptions {
   std::optional<std::size_t> max_frames;
   std::optional<std::filesystem::path> output;
   std::optional<std::filesystem::path> ground_truth;  // else the one of the layout, if any
+  bool no_loops = false;
   bool map = true;
   bool quiet = false;  // no progress; faults are still told
 };

@@ -39,6 +39,7 @@ line.grid { stroke: var(--grid); } line.axis { stroke: var(--axis); }
 .stroke.truth { stroke-width: 3.2; opacity: 0.65; }
 .stroke.keyframe, .dots.keyframe { stroke: var(--keyframe); }
 .stroke.fault, .dots.fault { stroke: var(--fault); }
+.dots.loop { stroke: var(--truth); stroke-width: 5; }
 .dots.keyframe { stroke-width: 3.4; }
 .dots.start { stroke: var(--text); stroke-width: 9; }
 .stroke.dashed { stroke: var(--text); stroke-dasharray: 6 4; stroke-width: 1.2; }

@@ -59,7 +59,10 @@ struct LiveFigures {
 struct Session {
   SessionDescription description;
   std::vector<FrameFigures> frames;
-  std::vector<TrajectoryPose> trajectory;
+  std::vector<TrajectoryPose> trajectory;  // corrected, if loops were looked for
+  std::vector<TrajectoryPose> odometry;    // uncorrected; empty if loops were not looked for
+  std::vector<LoopClosure> loops;          // that stand
+  LoopStatistics loop_statistics;
   std::vector<std::uint64_t> keyframes;  // their frames' sequence numbers
   FaultLog faults;
   std::size_t map_points = 0;

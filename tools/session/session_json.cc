@@ -73,6 +73,34 @@ Json json_of(const GroundTruth& truth) {
   return accuracy;
 }
 
+Json json_of(const LoopStatistics& statistics) {
+  Json json = {{"keyframes", statistics.keyframes},
+               {"queries_with_similar", statistics.queries},
+               {"candidates", statistics.candidates}};
+  for (const auto& [verdict, count] : statistics.verdicts) json[name_of(verdict)] = count;
+  json["contradicted_by_graph"] = statistics.contradicted;
+  return json;
+}
+
+Json json_of(const std::vector<LoopClosure>& loops) {
+  Json list = Json::array();
+  for (const LoopClosure& loop : loops) {
+    const Eigen::Vector3d t = loop.check.T_current_candidate.translation();
+    const Eigen::Quaterniond q(loop.check.T_current_candidate.linear());
+    list.push_back(
+        {{"frame", loop.current},
+         {"seen_before_in_frame", loop.candidate},
+         {"T_frame_before_tx_ty_tz_qx_qy_qz_qw", {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}},
+         {"distance_m", t.norm()},
+         {"pose_inliers", loop.check.pose_inliers},
+         {"disagreement_m", loop.check.disagreement_m},
+         {"disagreement_deg", loop.check.disagreement_deg},
+         {"overlap", loop.check.overlap},
+         {"found_share", loop.check.found_share}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string session_json(const Session& session, const SessionSummary& summary) {
@@ -95,6 +123,8 @@ std::string session_json(const Session& session, const SessionSummary& summary) 
                {"faults", session.faults.count_by_kind()},
                {"tracking_ms", json_of(summary.tracking)},
                {"window_ms", json_of(summary.window)},
+               {"loops", json_of(session.loops)},
+               {"loop_search", json_of(session.loop_statistics)},
                {"wall_s", to_seconds(session.wall_time)},
                {"frames_per_s", summary.frames_per_s},
                {"times_real_time", summary.realtime_factor},

@@ -18,7 +18,7 @@ std::string kitti_text(const std::vector<TrajectoryPose>& trajectory) {
 }
 
 Trajectory with_its_times(const std::vector<TrajectoryPose>& trajectory) {
-  Trajectory result{.source = "trajectory.tum"};
+  Trajectory result;
   for (const TrajectoryPose& pose : trajectory) {
     result.poses.push_back(pose.T_world_camera);
     result.times.push_back(pose.exposure);
@@ -71,13 +71,32 @@ std::vector<Error> SessionRecorder::add(const FrameRecord& record) {
 
 void SessionRecorder::add(const RetiredKeyframe& keyframe) {
   session_.keyframes.push_back(keyframe.sequence);
-  if (map_) map_->add(keyframe);
+  if (!map_) return;
+  if (!session_.description.config.loop.enabled) {
+    map_->add(keyframe);
+    return;
+  }
+  unplaced_.push_back({.sequence = keyframe.sequence,
+                       .T_world_camera = keyframe.T_world_camera,
+                       .cloud_camera = keyframe.cloud_camera});
 }
 
-void SessionRecorder::end(std::vector<TrajectoryPose> trajectory,
-                          std::chrono::nanoseconds wall_time) {
-  session_.trajectory =
-      trajectory.empty() ? poses_as_tracked(session_.frames) : std::move(trajectory);
+void SessionRecorder::end(ReplayTrajectories trajectories, std::chrono::nanoseconds wall_time) {
+  if (trajectories.odometry.empty()) trajectories.odometry = poses_as_tracked(session_.frames);
+  if (trajectories.corrected.empty()) {
+    session_.trajectory = std::move(trajectories.odometry);
+  } else {
+    session_.trajectory = std::move(trajectories.corrected);
+    session_.odometry = std::move(trajectories.odometry);
+  }
+  for (RetiredKeyframe& keyframe : unplaced_) {
+    const auto corrected = trajectories.corrected_keyframes.find(keyframe.sequence);
+    if (corrected != trajectories.corrected_keyframes.end()) {
+      keyframe.T_world_camera = corrected->second;
+    }
+    map_->add(keyframe);
+  }
+  unplaced_.clear();
   session_.wall_time = wall_time;
   session_.complete = !session_.broke_off;
 }
@@ -93,9 +112,20 @@ Result<void> SessionRecorder::write() {
   for (const auto& [name, content] : files) {
     if (auto written = write_file(folder_ / name, content); !written) return written;
   }
+  if (auto written = write_odometry(); !written) return written;
   return journal_.commit().and_then([&] { return write_map(); }).and_then([&] {
     return write_file(folder_ / "session.json", session_json(session_, summary));
   });
+}
+
+Result<void> SessionRecorder::write_odometry() {
+  const std::filesystem::path file = folder_ / "odometry.tum";
+  if (!session_.odometry.empty()) {
+    return write_file(file, format_tum(with_its_times(session_.odometry)));
+  }
+  std::error_code error;  // an earlier session's would not be this one's
+  std::filesystem::remove(file, error);
+  return {};
 }
 
 Result<void> SessionRecorder::write_map() {

@@ -27,18 +27,20 @@ class SessionRecorder {
   std::vector<Error> add(const FrameRecord& record);
   void add(const RetiredKeyframe& keyframe);
   // An empty trajectory (a run that broke off) stands for the poses as they were when tracked.
-  void end(std::vector<TrajectoryPose> trajectory, std::chrono::nanoseconds wall_time);
+  void end(ReplayTrajectories trajectories, std::chrono::nanoseconds wall_time);
   Result<void> write();
 
   Session& session() { return session_; }
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
+  Result<void> write_odometry();
   Result<void> write_map();
 
   std::filesystem::path folder_;
   Session session_;
   std::optional<VoxelMap> map_;
+  std::vector<RetiredKeyframe> unplaced_;  // of a map that waits for loops
   AtomicFile journal_;
   std::optional<AtomicFile> poses_;  // as tracked; replaced by the final ones at the end
 };

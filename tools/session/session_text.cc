@@ -44,6 +44,10 @@ std::string session_text(const Session& session, const std::filesystem::path& fo
       fmt::format("frames    {} in {:.1f} s and {:.1f} m: {} tracked, {} predicted, {} keyframes\n",
                   summary.frames, summary.recorded_s, summary.path_length_m, summary.tracked,
                   summary.predicted, summary.keyframes);
+  if (session.description.config.loop.enabled) {
+    text += fmt::format("loops     {} closed, {} candidates verified\n", session.loops.size(),
+                        session.loop_statistics.candidates);
+  }
   text += accuracy_text(session) + timing_text(summary) + faults_text(session.faults);
   for (const std::string& note : session.notes) text += fmt::format("note      {}\n", note);
   return text + fmt::format("results   {}\n", folder.string());

@@ -14,6 +14,8 @@ int main(int argc, char** argv) {
   sparsight::add_benchmark(app, exit_code);
   sparsight::add_recover(app, exit_code);
   sparsight::add_doctor(app, exit_code);
+  sparsight::add_optimise(app, exit_code);
+  sparsight::add_train_vocabulary(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

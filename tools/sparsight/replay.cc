@@ -22,6 +22,7 @@ int replay(ReplayOptions options) {
     return kUsage;
   }
   options.config = *config;
+  if (options.no_loops) options.config.loop.enabled = false;
   const auto result = replay_session(options);
   if (!result) {
     fmt::print(stderr, "{}\n", result.error().message);
@@ -67,6 +68,7 @@ void add_replay(CLI::App& app, int& exit_code) {
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
   command->add_flag("--quiet", options->quiet, "no progress and no summary");
+  command->add_flag("--no-loops", options->no_loops, "odometry alone, whatever the profile says");
   command->add_flag("!--no-map", options->map, "do not write map.ply");
   command->callback([options, &exit_code] { exit_code = replay(*options); });
 }

@@ -15,5 +15,7 @@ void add_simulate(CLI::App& app, int& exit_code);
 void add_benchmark(CLI::App& app, int& exit_code);
 void add_recover(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
+void add_optimise(CLI::App& app, int& exit_code);
+void add_train_vocabulary(CLI::App& app, int& exit_code);
 
 }  // namespace sparsight

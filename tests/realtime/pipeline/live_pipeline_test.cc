@@ -93,7 +93,7 @@ TEST(LivePipeline, TracksWhatItsDevicesDeliverAsTheReplayWould) {
   RigFrameSource source(std::make_unique<MadeEventSource>(live.walk.events()), live.walk.decoder(),
                         live.walk.calibration(), {});
   Odometry odometry(live.walk.calibration(), live.odometry);
-  const auto replayed = replay_deterministic(source, odometry, std::nullopt, {});
+  const auto replayed = replay_deterministic(source, odometry, std::nullopt, {}).odometry;
   ASSERT_EQ(live.trajectory.size(), replayed.size());
   for (std::size_t i = 1 + untracked; i < replayed.size(); ++i) {
     EXPECT_EQ(live.trajectory[i].exposure, replayed[i].exposure);

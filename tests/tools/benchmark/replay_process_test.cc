@@ -39,7 +39,7 @@ class ReplayProcess : public ::testing::Test {
 TEST_F(ReplayProcess, PassesTheRunAsReplayTakesIt) {
   ASSERT_EQ(run("printf '%s\\n' \"$@\"").status, ReplayOutcome::Status::kDone);
   EXPECT_EQ(read_text_file(run_.log()).value(),
-            "replay\n/data set/04\n--rays\n16\n--profile\npaper\n--output\n" +
+            "replay\n/data set/04\n--rays\n16\n--no-loops\n--profile\npaper\n--output\n" +
                 run_.session.string() + "\n--quiet\n--max-frames\n7\n");
 }
 

@@ -22,7 +22,8 @@ using Path = std::map<HostTime, Eigen::Isometry3d>;
 Path tracked(FrameSource& source, std::chrono::nanoseconds to_host_time) {
   Odometry odometry(source.calibration(), {});
   Path path;
-  for (const TrajectoryPose& pose : replay_deterministic(source, odometry, std::nullopt, {})) {
+  const ReplayTrajectories replayed = replay_deterministic(source, odometry, std::nullopt, {});
+  for (const TrajectoryPose& pose : replayed.odometry) {
     // Both know the exposure to some microseconds, and frames are 33 ms apart.
     path[HostTime(std::chrono::round<std::chrono::milliseconds>(
         pose.exposure.time_since_epoch() + to_host_time))] = pose.T_world_camera;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -48,7 +49,7 @@ class RecordedSession : public ::testing::Test {
                     .T_world_camera = frame.outcome.T_world_camera,
                     .cloud_camera = {{.p_camera = {0, 0, 5}, .rgb = {1, 2, 3}}}});
     }
-    recorder.end(std::move(trajectory), std::chrono::seconds(5));
+    recorder.end({.odometry = std::move(trajectory)}, std::chrono::seconds(5));
   }
 
   nlohmann::json json() const { return nlohmann::json::parse(text_of(folder_ / "session.json")); }
@@ -121,6 +122,38 @@ TEST_F(RecordedSession, JournalHasALinePerFrameAndSurvivesACrash) {
 TEST_F(RecordedSession, JournalLineHoldsTheFramesFigures) {
   EXPECT_EQ(frames_csv_line(figures_of(sample_record(210))),
             "210,21.000000000,predicted,829,7.7264,0.9750,4,0,1.0110,0.0000\n");
+}
+
+TEST_F(RecordedSession, LoopsLeaveBothPathsAndTheMapOfTheCorrectedOne) {
+  SessionDescription description;
+  description.config.loop.enabled = true;
+  SessionRecorder recorder(folder_, description, true);
+  const FrameRecord frame = sample_record(0);
+  recorder.add(frame);
+  recorder.add({.sequence = 0, .cloud_camera = {{.p_camera = {0, 0, 5}, .rgb = {1, 2, 3}}}});
+  Eigen::Isometry3d corrected = Eigen::Isometry3d::Identity();
+  corrected.translation().x() = 40.0;
+  recorder.session().loops.push_back({.candidate = 0, .current = 0});
+  recorder.end({.odometry = {{0, frame.exposure, Eigen::Isometry3d::Identity()}},
+                .corrected = {{0, frame.exposure, corrected}},
+                .corrected_keyframes = {{0, corrected}}},
+               std::chrono::seconds(1));
+  ASSERT_TRUE(recorder.write());
+  EXPECT_EQ(read_trajectory(folder_ / "trajectory.tum").value().poses[0].translation().x(), 40.0);
+  EXPECT_EQ(read_trajectory(folder_ / "odometry.tum").value().poses[0].translation().x(), 0.0);
+  EXPECT_EQ(json()["loops"].size(), 1);
+  EXPECT_THAT(text_of(folder_ / "report.html"), ::testing::HasSubstr("odometry, without loops"));
+  EXPECT_THAT(text_of(folder_ / "map.ply"), ::testing::HasSubstr("element vertex 1\n"));
+  float x = 0.0F;  // the only vertex begins behind the header
+  const std::string map = text_of(folder_ / "map.ply");
+  std::memcpy(&x, map.data() + map.find("end_header\n") + 11, sizeof(x));
+  EXPECT_FLOAT_EQ(x, 40.0F);
+  // A session without loops in the same folder leaves only its own.
+  SessionRecorder again(folder_, {}, false);
+  again.add(frame);
+  again.end({}, std::chrono::seconds(1));
+  ASSERT_TRUE(again.write());
+  EXPECT_FALSE(fs::exists(folder_ / "odometry.tum"));
 }
 
 TEST_F(RecordedSession, EarlierSessionStaysUntilTheNewOneIsWritten) {

@@ -1,0 +1,56 @@
+#include "slam/loop/loop_graph.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "slam/graph/edge_error.h"
+
+namespace sparsight {
+namespace {
+
+constexpr int kIterations = 20;
+// Of a true loop: chi^2 with six degrees of freedom, which one in 100,000 exceeds.
+constexpr double kHighestPrice = 33.1;
+
+// The loop of those that the graph contradicts most.
+std::size_t worst_of(const PoseGraph& graph, const std::vector<std::size_t>& loops) {
+  return *std::ranges::max_element(
+      loops, {}, [&](std::size_t edge) { return edge_chi2(graph, graph.edges[edge]); });
+}
+
+}  // namespace
+
+void LoopGraph::add_first(const Eigen::Isometry3d& T_world_keyframe) {
+  graph_.T_world_node.push_back(T_world_keyframe);
+}
+
+void LoopGraph::add_next(const Eigen::Isometry3d& T_last_next, const Matrix6d& information) {
+  const std::size_t last = graph_.T_world_node.size() - 1;
+  graph_.T_world_node.push_back(renormalized(graph_.T_world_node[last] * T_last_next));
+  graph_.edges.push_back(
+      {.from = last, .to = last + 1, .T_from_to = T_last_next, .information = information});
+}
+
+bool LoopGraph::add_loop(std::size_t from, std::size_t to, const Eigen::Isometry3d& T_from_to,
+                         const Matrix6d& information) {
+  const PoseEdge loop{
+      .from = from, .to = to, .T_from_to = T_from_to, .information = information, .loop = true};
+  const GraphOptimizerConfig robust{.max_iterations = kIterations, .dcs_phi = dcs_phi_};
+  PoseGraph warm = graph_;
+  warm.edges.push_back(loop);
+  // As if it were true: after a long way the drift may exceed what the scaling lets a loop pull.
+  last_ = optimize(warm, {.max_iterations = kIterations, .dcs_phi = 0.0});
+  if (last_.final_cost - graph_cost(graph_, 0.0) > kHighestPrice) return false;
+  last_ = optimize(warm, robust);
+  for (auto against = contradicted_loops(warm); !against.empty();
+       against = contradicted_loops(warm)) {
+    const std::size_t worst = worst_of(warm, against);
+    if (worst + 1 == warm.edges.size()) return false;
+    warm.edges.erase(warm.edges.begin() + static_cast<std::ptrdiff_t>(worst));
+    last_ = optimize(warm, robust);
+  }
+  graph_ = std::move(warm);
+  return true;
+}
+
+}  // namespace sparsight
