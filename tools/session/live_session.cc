@@ -59,6 +59,10 @@ class LiveRun {
                   sync_config(rig.config), outputs(), live_config(rig, options)) {}
 
   Result<void> begin() { return session_.begin(); }
+  void note(const std::string& remark) {
+    say("note: " + remark);
+    session_.session().notes.push_back(remark);
+  }
 
   void run() {
     const InterruptRequest interrupt;
@@ -122,10 +126,7 @@ class LiveRun {
 
   void look(const ServiceNotifier& service) {
     status_ = pipeline_.look();
-    for (const std::string& remark : pipeline_.remarks()) {
-      say("note: " + remark);
-      session_.session().notes.push_back(remark);
-    }
+    for (const std::string& remark : pipeline_.remarks()) note(remark);
     tell_devices();
     const auto now = Clock::now();
     if (const auto interval = service.watchdog_interval(); interval && now >= next_feed_) {
@@ -207,6 +208,10 @@ class LiveRun {
       session.notes.push_back(
           fmt::format("{} frames came too fast to be tracked", status_.frames_dropped));
     }
+    if (status_.records_dropped > 0) {
+      session.notes.push_back(fmt::format("{} frames are missing in frames.csv and the trajectory",
+                                          status_.records_dropped));
+    }
     if (status_.events_dropped() > 0) {
       session.notes.push_back(
           fmt::format("{} raw events came too fast to be recorded", status_.events_dropped()));
@@ -236,14 +241,12 @@ Result<LiveResult> run_live(LiveRig rig, const LiveOptions& options) {
                 fmt::format("{}: has no [calibration.camera]; calibrate the rig, or only record",
                             rig.source.string()));
   }
-  if (options.realtime) {
-    const auto remark = set_up_memory(kHeapTouched);
-    if (remark && !options.quiet) fmt::print(stderr, "note: {}\n", *remark);
-  }
+  const auto remark = options.realtime ? set_up_memory(kHeapTouched) : std::nullopt;
   auto recorder = start_recorder(rig, options);
   if (!recorder) return tl::unexpected(recorder.error());
   const auto run = std::make_unique<LiveRun>(std::move(rig), options, std::move(*recorder));
   if (auto begun = run->begin(); !begun) return tl::unexpected(begun.error());
+  if (remark) run->note(*remark);
   run->run();
   return run->result();
 }
