@@ -173,15 +173,7 @@ class LiveRun {
     pipeline_.stop();
     status_ = pipeline_.look();
     Session& session = session_.session();
-    if (recorder_) {
-      const RecorderReport report = recorder_->finish();
-      if (!report.message.empty()) session.notes.push_back(report.message);
-      if (report.lost_anything_raw()) {
-        session.notes.push_back(fmt::format(
-            "the disk was too slow: {} frames and {} packets or edges are not in the recording",
-            report.frames_dropped, report.packets_dropped));
-      }
-    }
+    if (recorder_) note_recording(recorder_->finish(), session);
     session.live = figures(wall);
     note_losses(session);
     if (options_.odometry) tell_camera_found(given_, pipeline_.camera(), session);
@@ -201,6 +193,19 @@ class LiveRun {
     live.cpu_share = to_seconds(processor_time()) / std::max(1e-3, to_seconds(wall));
     live.resident_bytes = resident_bytes();
     return live;
+  }
+
+  void note_recording(const RecorderReport& report, Session& session) const {
+    session.notes.push_back(fmt::format("recorded {:.1f} MB: {} frames, {} LiDAR packets, {} edges",
+                                        1e-6 * static_cast<double>(report.bytes_written),
+                                        status_.camera.events, status_.lidar.events,
+                                        status_.trigger.events));
+    if (!report.message.empty()) session.notes.push_back(report.message);
+    if (report.lost_anything_raw()) {
+      session.notes.push_back(fmt::format(
+          "the disk was too slow: {} frames and {} packets or edges are not in the recording",
+          report.frames_dropped, report.packets_dropped));
+    }
   }
 
   void note_losses(Session& session) const {
