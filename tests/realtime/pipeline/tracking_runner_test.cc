@@ -35,6 +35,7 @@ class Rounds {
     config.photometry.affine_brightness = true;
     config.photometry.patch_weights = true;
     config.tracker.automatic_top_level = true;
+    config.tracker.scan_speed = true;
     config.keyframes.max_age_s = 0.45;
     return config;
   }
