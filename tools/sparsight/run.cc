@@ -103,7 +103,7 @@ Result<void> settle(LiveArguments& arguments) {
   options.config = *config;
   options.recording = !arguments.no_recording;
   options.realtime = !arguments.no_realtime;
-  if (arguments.seconds > 0.0) {
+  if (arguments.seconds > 0.0 && arguments.simulated.empty()) {  // a scene ends by itself
     options.duration = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * arguments.seconds));
   }
   return {};
