@@ -8,11 +8,13 @@ namespace {
 
 struct Moved {
   std::chrono::nanoseconds by;
+  std::uint32_t restarts;
 
   RigEvent operator()(const std::shared_ptr<const CameraFrame>& frame) const {
     auto later = std::make_shared<CameraFrame>(*frame);
     later->arrival += by;
     later->driver_time += by;
+    later->epoch += restarts;
     return std::shared_ptr<const CameraFrame>(std::move(later));
   }
   RigEvent operator()(Edge edge) const {
@@ -35,8 +37,8 @@ struct Moved {
 
 }  // namespace
 
-RigEvent moved(const RigEvent& event, std::chrono::nanoseconds by) {
-  return std::visit(Moved{by}, event);
+RigEvent moved(const RigEvent& event, std::chrono::nanoseconds by, std::uint32_t restarts) {
+  return std::visit(Moved{by, restarts}, event);
 }
 
 PlayedEvents::PlayedEvents(std::unique_ptr<RigEventSource> events, std::chrono::nanoseconds by,

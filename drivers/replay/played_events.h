@@ -3,6 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -13,8 +14,8 @@
 
 namespace sparsight {
 
-// The same event, `by` later.
-RigEvent moved(const RigEvent& event, std::chrono::nanoseconds by);
+// The same event, `by` later; a frame's as of so many restarts of the camera more.
+RigEvent moved(const RigEvent& event, std::chrono::nanoseconds by, std::uint32_t restarts = 0);
 
 // Events of another day as if they happened from now on: all times are moved, and a thread reads
 // ahead, so that whoever plays them in real time never waits for the disk. Thread-bound.

@@ -4,9 +4,10 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <cstring>
@@ -34,6 +35,13 @@ void touch_heap(std::size_t bytes) {
   const std::unique_ptr<std::uint8_t[]> block(new std::uint8_t[bytes]);
   volatile std::uint8_t* touched = block.get();
   for (std::size_t i = 0; i < bytes; i += kPage) touched[i] = 0;
+}
+
+// Within a limit it would succeed, and the first memory beyond it would be refused in mid-run.
+bool may_lock_all() {
+  rlimit limit{};
+  getrlimit(RLIMIT_MEMLOCK, &limit);
+  return geteuid() == 0 || limit.rlim_cur == RLIM_INFINITY;
 }
 
 std::string refused(const std::string& what, int error) { return what + ": " + strerror(error); }
@@ -81,11 +89,10 @@ std::optional<std::string> set_up_memory(std::size_t heap_bytes) {
   pthread_attr_destroy(&attributes);
   std::optional<std::string> problem;
   // What is touched stays; the rest of the libraries, hundreds of megabytes of them, need not come.
-  if (mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0) {
-    problem = refused(
-        "memory cannot be locked, so it may be paged out; give CAP_IPC_LOCK, or "
-        "LimitMEMLOCK=infinity in the service",
-        errno);
+  if (!may_lock_all() || mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0) {
+    problem =
+        "memory cannot be locked, so it may be paged out; give LimitMEMLOCK=infinity in the "
+        "service";
   }
   touch_heap(heap_bytes);
   return problem;

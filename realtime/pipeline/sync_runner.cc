@@ -9,6 +9,8 @@ namespace {
 
 constexpr std::chrono::nanoseconds kSyncRound{1'000'000};
 constexpr std::chrono::nanoseconds kPublishPeriod{100'000'000};
+// At the end, for a frame to become free: two seconds, then tracking is no more.
+constexpr int kMostDrainingRounds = 2000;
 
 }  // namespace
 
@@ -71,7 +73,7 @@ void SyncRunner::forward() {
       continue;
     }
     LiveFrame* frame = free_frame();
-    while (frame == nullptr && draining_) {
+    for (int rounds = 0; frame == nullptr && draining_ && rounds < kMostDrainingRounds; ++rounds) {
       clock_.sleep_until(clock_.now() + kSyncRound);
       frame = free_frame();
     }

@@ -1,11 +1,13 @@
 #include "realtime/pipeline/tracking_runner.h"
 
+#include <cstdint>
+
 namespace sparsight {
 namespace {
 
-// A frame that is not there yet is looked for so often, for so much of the period.
+// A frame that is not there yet is looked for so often, until the next one is nearly due.
 constexpr std::chrono::nanoseconds kFrameLookAgain{500'000};
-constexpr int kWaitingShare = 4;
+constexpr double kWaitingShare = 0.75;
 
 }  // namespace
 
@@ -32,7 +34,9 @@ bool TrackingRunner::tick() {
     LiveShared::count(shared_.counters.tracking_behind);
   }
   bool any = track_waiting(tick.due);
-  const HostTime patience = tick.due + loop_.period() / kWaitingShare;
+  const HostTime patience =
+      tick.due + std::chrono::nanoseconds(static_cast<std::int64_t>(
+                     kWaitingShare * static_cast<double>(loop_.period().count())));
   while (!any && clock_.now() + kFrameLookAgain < patience) {
     clock_.sleep_until(clock_.now() + kFrameLookAgain);
     any = track_waiting(tick.due);

@@ -8,6 +8,8 @@ namespace {
 constexpr std::chrono::nanoseconds kWindowRound{2'000'000};
 // A frame that is to become a keyframe and waits longer says that the window is behind.
 constexpr std::chrono::nanoseconds kWindowPatience{100'000'000};
+// At the end, for the background to take what is left; longer, and it is no more.
+constexpr std::chrono::nanoseconds kLastPatience{30'000'000'000};
 
 }  // namespace
 
@@ -25,7 +27,8 @@ void WindowRunner::run(StageThread& thread) {
     clock_.sleep_until(clock_.now() + kWindowRound);
   }
   window_.finish();
-  for (pass_on_retired(); !retired_.empty(); pass_on_retired()) {
+  const HostTime patience = clock_.now() + kLastPatience;
+  for (pass_on_retired(); !retired_.empty() && clock_.now() < patience; pass_on_retired()) {
     thread.beat();
     clock_.sleep_until(clock_.now() + kWindowRound);
   }

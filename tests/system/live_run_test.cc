@@ -169,6 +169,24 @@ TEST(LiveRun, GoesOnThoughNoDeviceIsThereAndSaysSo) {
   EXPECT_TRUE(fs::exists(folder / "recording.mcap"));
 }
 
+TEST(LiveRun, ShowsASensorThatGoesAndComesBackAndTracksOn) {
+  const fs::path folder = scratch_folder();
+  const fs::path recording = folder / "away.mcap";
+  const ProgramRun made =
+      run_sparsight({"simulate", "--duration", "3.5", "--seed", "3", "--size", "160x120", "--away",
+                     "camera:1.5:0.7", "--output", recording, "--quiet"});
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  const ProgramRun run =
+      run_sparsight({"run", "--play", recording, "--output", folder / "session", "--no-map"});
+  EXPECT_EQ(run.exit_code, 0) << run.errors;
+  const std::size_t gone = run.errors.find("camera is gone");
+  ASSERT_NE(gone, std::string::npos) << run.errors;
+  EXPECT_NE(run.errors.find("camera is streaming", gone), std::string::npos) << run.errors;
+  const json session = json::parse(text_of(folder / "session" / "session.json"));
+  EXPECT_EQ(session.at("complete"), true);
+  EXPECT_GE(session.at("tracked").get<int>(), 36 + 24) << "before it went, and after";
+}
+
 TEST(LiveRun, NeedsToBeToldOnWhat) {
   EXPECT_EQ(run_sparsight({"run"}).exit_code, 2);
   EXPECT_EQ(run_sparsight({"run", "--rig", "/nowhere.toml"}).exit_code, 1);

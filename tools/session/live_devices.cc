@@ -8,6 +8,7 @@
 #include "drivers/recording/recording_source.h"
 #include "drivers/recording/recording_writer.h"
 #include "drivers/replay/played_events.h"
+#include "drivers/replay/repeated_events.h"
 #include "drivers/simulated/simulated_devices.h"
 #include "drivers/v4l2/v4l2_camera.h"
 #include "drivers/vlp16/udp_lidar.h"
@@ -42,7 +43,8 @@ Result<LiveRig> open_rig(const std::string& rig_file) {
   return rig;
 }
 
-Result<LiveRig> play_recording(const std::filesystem::path& file, const std::string& rig_file) {
+Result<LiveRig> play_recording(const std::filesystem::path& file, const std::string& rig_file,
+                               int times) {
   auto recording = RecordingSource::open(file);
   if (!recording) return tl::unexpected(recording.error());
   auto config = rig_of(**recording, file.string(), rig_file);
@@ -50,7 +52,10 @@ Result<LiveRig> play_recording(const std::filesystem::path& file, const std::str
   LiveRig rig{.config = *config, .source = file};
   const HostTime start = HostClock::now() + kLead;
   const HostTime first = (*recording)->info().first;
-  SimulatedDevices devices(std::make_unique<PlayedEvents>(std::move(*recording), start - first),
+  auto repeated = std::make_unique<RepeatedEvents>(
+      [file]() -> Result<std::unique_ptr<RigEventSource>> { return RecordingSource::open(file); },
+      times);
+  SimulatedDevices devices(std::make_unique<PlayedEvents>(std::move(repeated), start - first),
                            start, SimulatedPace::kRealTime);
   rig.devices.camera = devices.camera();
   rig.devices.lidar = devices.lidar();

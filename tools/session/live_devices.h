@@ -20,7 +20,9 @@ struct LiveRig {
 Result<LiveRig> open_rig(const std::string& rig_file);
 
 // A recording as if it happened now, with its own timing: its events reach the devices' interfaces
-// when they arrived. rig_file: instead of the recording's own description of its rig, if not "".
-Result<LiveRig> play_recording(const std::filesystem::path& recording, const std::string& rig_file);
+// when they arrived; `times` over. rig_file: instead of the recording's own description of its rig,
+// if not "".
+Result<LiveRig> play_recording(const std::filesystem::path& recording, const std::string& rig_file,
+                               int times = 1);
 
 }  // namespace sparsight

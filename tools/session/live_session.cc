@@ -59,6 +59,10 @@ class LiveRun {
                   sync_config(rig.config), outputs(), live_config(rig, options)) {}
 
   Result<void> begin() { return session_.begin(); }
+  void note(const std::string& remark) {
+    say("note: " + remark);
+    session_.session().notes.push_back(remark);
+  }
 
   void run() {
     const InterruptRequest interrupt;
@@ -122,10 +126,7 @@ class LiveRun {
 
   void look(const ServiceNotifier& service) {
     status_ = pipeline_.look();
-    for (const std::string& remark : pipeline_.remarks()) {
-      say("note: " + remark);
-      session_.session().notes.push_back(remark);
-    }
+    for (const std::string& remark : pipeline_.remarks()) note(remark);
     tell_devices();
     const auto now = Clock::now();
     if (const auto interval = service.watchdog_interval(); interval && now >= next_feed_) {
@@ -172,15 +173,7 @@ class LiveRun {
     pipeline_.stop();
     status_ = pipeline_.look();
     Session& session = session_.session();
-    if (recorder_) {
-      const RecorderReport report = recorder_->finish();
-      if (!report.message.empty()) session.notes.push_back(report.message);
-      if (report.lost_anything_raw()) {
-        session.notes.push_back(fmt::format(
-            "the disk was too slow: {} frames and {} packets or edges are not in the recording",
-            report.frames_dropped, report.packets_dropped));
-      }
-    }
+    if (recorder_) note_recording(recorder_->finish(), session);
     session.live = figures(wall);
     note_losses(session);
     if (options_.odometry) tell_camera_found(given_, pipeline_.camera(), session);
@@ -202,10 +195,27 @@ class LiveRun {
     return live;
   }
 
+  void note_recording(const RecorderReport& report, Session& session) const {
+    session.notes.push_back(fmt::format("recorded {:.1f} MB: {} frames, {} LiDAR packets, {} edges",
+                                        1e-6 * static_cast<double>(report.bytes_written),
+                                        status_.camera.events, status_.lidar.events,
+                                        status_.trigger.events));
+    if (!report.message.empty()) session.notes.push_back(report.message);
+    if (report.lost_anything_raw()) {
+      session.notes.push_back(fmt::format(
+          "the disk was too slow: {} frames and {} packets or edges are not in the recording",
+          report.frames_dropped, report.packets_dropped));
+    }
+  }
+
   void note_losses(Session& session) const {
     if (status_.frames_dropped > 0) {
       session.notes.push_back(
           fmt::format("{} frames came too fast to be tracked", status_.frames_dropped));
+    }
+    if (status_.records_dropped > 0) {
+      session.notes.push_back(fmt::format("{} frames are missing in frames.csv and the trajectory",
+                                          status_.records_dropped));
     }
     if (status_.events_dropped() > 0) {
       session.notes.push_back(
@@ -236,14 +246,12 @@ Result<LiveResult> run_live(LiveRig rig, const LiveOptions& options) {
                 fmt::format("{}: has no [calibration.camera]; calibrate the rig, or only record",
                             rig.source.string()));
   }
-  if (options.realtime) {
-    const auto remark = set_up_memory(kHeapTouched);
-    if (remark && !options.quiet) fmt::print(stderr, "note: {}\n", *remark);
-  }
+  const auto remark = options.realtime ? set_up_memory(kHeapTouched) : std::nullopt;
   auto recorder = start_recorder(rig, options);
   if (!recorder) return tl::unexpected(recorder.error());
   const auto run = std::make_unique<LiveRun>(std::move(rig), options, std::move(*recorder));
   if (auto begun = run->begin(); !begun) return tl::unexpected(begun.error());
+  if (remark) run->note(*remark);
   run->run();
   return run->result();
 }

@@ -28,6 +28,7 @@ const std::map<std::string, SimulatedScene> kPlayedScenes{{"corridor", Simulated
 struct LiveArguments {
   std::string rig;
   std::string play;
+  int repeat = 1;
   std::string simulated;
   std::optional<std::filesystem::path> output;
   double seconds = 0.0;
@@ -81,7 +82,8 @@ Result<LiveRig> open_into_folder(LiveArguments& arguments) {
         .and_then([](const std::filesystem::path& made) { return play_recording(made, ""); });
   }
   const bool played = !arguments.play.empty();
-  auto rig = played ? play_recording(arguments.play, arguments.rig) : open_rig(arguments.rig);
+  auto rig = played ? play_recording(arguments.play, arguments.rig, arguments.repeat)
+                    : open_rig(arguments.rig);
   if (!rig) return rig;
   if (auto claimed = claim(played ? arguments.play : arguments.rig); !claimed) {
     return tl::unexpected(claimed.error());
@@ -101,7 +103,7 @@ Result<void> settle(LiveArguments& arguments) {
   options.config = *config;
   options.recording = !arguments.no_recording;
   options.realtime = !arguments.no_realtime;
-  if (arguments.seconds > 0.0) {
+  if (arguments.seconds > 0.0 && arguments.simulated.empty()) {  // a scene ends by itself
     options.duration = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * arguments.seconds));
   }
   return {};
@@ -130,6 +132,9 @@ void add_common(CLI::App& command, LiveArguments& arguments) {
       .add_option("--play", arguments.play,
                   "instead of devices: a recording as if it happened now, with its own timing")
       ->type_name("RECORDING");
+  command.add_option("--repeat", arguments.repeat, "play it N times, one after the other")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
   command
       .add_option("--output", arguments.output,
                   "session folder (default: a new ./session-NAME); the recording goes there too")

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <thread>
+#include <utility>
+
+#include "drivers/replay/repeated_events.h"
 
 namespace sparsight {
 namespace {
@@ -48,6 +50,32 @@ TEST(PlayedEvents, GivesAllInOrderThoughItReadsAheadByAFew) {
   }
   EXPECT_FALSE(played.next().has_value());
   EXPECT_FALSE(played.next().has_value());
+}
+
+TEST(RepeatedEvents, GoOnWithTheTimeAndRestartTheCamera) {
+  class OneFrame final : public RigEventSource {
+   public:
+    std::optional<RigEvent> next() override {
+      if (std::exchange(done_, true)) return std::nullopt;
+      auto frame = std::make_shared<CameraFrame>();
+      frame->epoch = 5;
+      frame->arrival = HostTime(50s);
+      return std::shared_ptr<const CameraFrame>(std::move(frame));
+    }
+
+   private:
+    bool done_ = false;
+  };
+  RepeatedEvents repeated(
+      []() -> Result<std::unique_ptr<RigEventSource>> { return std::make_unique<OneFrame>(); }, 3);
+  for (std::uint32_t lap = 0; lap < 3; ++lap) {
+    const auto event = repeated.next();
+    ASSERT_TRUE(event.has_value());
+    const auto& frame = std::get<std::shared_ptr<const CameraFrame>>(*event);
+    EXPECT_EQ(frame->epoch, 5 + lap);
+    EXPECT_EQ(frame->arrival, HostTime(50s + lap * 100ms));
+  }
+  EXPECT_FALSE(repeated.next().has_value());
 }
 
 TEST(PlayedEvents, CanBeLeftBeforeItsEnd) {
