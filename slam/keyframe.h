@@ -24,6 +24,7 @@ struct Keyframe {
   std::uint64_t sequence = 0;
   HostTime exposure;
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  bool predicted = false;  // tracking had failed: where it stands was not measured
   // Where the marginalisation prior was linearised; set once, when the prior first touches it.
   std::optional<Eigen::Isometry3d> T_world_camera_first;
 

@@ -137,6 +137,7 @@ std::unique_ptr<Keyframe> Odometry::State::make_keyframe(const SynchronizedFrame
   keyframe->sequence = frame.sequence;
   keyframe->exposure = frame.exposure;
   keyframe->T_world_camera = outcome.T_world_camera;
+  keyframe->predicted = outcome.status == FrameOutcome::Status::kPredicted;
   keyframe->pyramid = pyramid;
   keyframe->points = select_points(returns, frame.grey, camera, config.points);
   keyframe->mean_inverse_depth = mean_inverse_depth(keyframe->points);
@@ -166,7 +167,8 @@ void Odometry::State::retire_oldest() {
                          .exposure = keyframe.exposure,
                          .T_world_camera = keyframe.T_world_camera,
                          .cloud_camera = std::move(keyframe.cloud_camera),
-                         .pyramid = std::move(keyframe.pyramid)};
+                         .pyramid = std::move(keyframe.pyramid),
+                         .predicted = keyframe.predicted};
   if (window.size() > 0) {
     const Keyframe& successor = window.oldest();
     result.successor = {
