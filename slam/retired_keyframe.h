@@ -25,6 +25,7 @@ struct RetiredKeyframe {
   std::optional<Successor> successor;  // none for the last keyframe
   std::vector<CloudPoint> cloud_camera;
   ImagePyramid pyramid;
+  bool predicted = false;  // where it stands relative to the one before was not measured
 };
 
 }  // namespace sparsight

@@ -81,6 +81,7 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
   keyframe->sequence = frame.sequence;
   keyframe->exposure = frame.exposure;
   keyframe->T_world_camera = pose_of(tracked);
+  keyframe->predicted = tracked.outcome.status == FrameOutcome::Status::kPredicted;
   keyframe->pyramid = tracked.pyramid;
   keyframe->points = select_points(returns, frame.grey, camera_, config_.points);
   keyframe->mean_inverse_depth = mean_inverse_depth(keyframe->points);
@@ -106,7 +107,8 @@ void WindowStage::retire_oldest() {
                          .exposure = keyframe.exposure,
                          .T_world_camera = keyframe.T_world_camera,
                          .cloud_camera = std::move(keyframe.cloud_camera),
-                         .pyramid = std::move(keyframe.pyramid)};
+                         .pyramid = std::move(keyframe.pyramid),
+                         .predicted = keyframe.predicted};
   if (window_.size() > 0) {
     const Keyframe& successor = window_.oldest();
     result.successor = {

@@ -95,7 +95,7 @@ void LoopCloser::State::remember(const RetiredKeyframe& keyframe, const CameraIn
   } else {
     const Eigen::Isometry3d T_last_next =
         places.back().T_odometry_camera.inverse() * keyframe.T_world_camera;
-    const bool known = to_next && to_next->sequence == keyframe.sequence;
+    const bool known = to_next && to_next->sequence == keyframe.sequence && !keyframe.predicted;
     graph.add_next(T_last_next, believable(known ? to_next->information : Matrix6d::Zero(),
                                            T_last_next.translation().norm(), config));
   }

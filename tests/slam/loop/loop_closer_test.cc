@@ -157,6 +157,27 @@ TEST(LoopCloser, TakesTheDriftOutOfAWalkThatComesBack) {
   EXPECT_LT(closer.loops()[0].candidate, closer.loops()[0].current);
 }
 
+// Tracking is lost on the way, and what is predicted is metres off.
+std::size_t loops_across_a_jump(bool predicted) {
+  const MadeWalk& walk = made_walk();
+  LoopCloser closer(loop_settings(), shipped_vocabulary());
+  for (std::size_t i = 0; i < walk.truth.size(); ++i) {
+    RetiredKeyframe keyframe = walk.keyframe(i);
+    if (i >= MadeWalk::kViews) {
+      keyframe.T_world_camera = Eigen::Translation3d(2.0, 0.0, 3.0) * keyframe.T_world_camera;
+    }
+    keyframe.predicted = predicted && i == MadeWalk::kViews;
+    closer.add(keyframe, walk.camera().intrinsics());
+  }
+  closer.finish();
+  return closer.loops().size();
+}
+
+TEST(LoopCloser, BelievesALoopAcrossAGapOfTrackingButNotAgainstWhatWasTracked) {
+  EXPECT_GE(loops_across_a_jump(true), 2);
+  EXPECT_EQ(loops_across_a_jump(false), 0);
+}
+
 TEST(LoopCloser, WithoutALoopThePosesAreTheOdometrys) {
   const MadeWalk& walk = made_walk();
   LoopCloser closer(loop_settings(), shipped_vocabulary());
