@@ -180,6 +180,11 @@ std::vector<TrajectoryPose> LivePipeline::trajectory() const {
   return parts_->journal_runner.trajectory().poses();
 }
 
+std::vector<TrajectoryPose> LivePipeline::trajectory(
+    const std::map<std::uint64_t, Eigen::Isometry3d>& T_world_keyframes) const {
+  return parts_->journal_runner.trajectory().poses(T_world_keyframes);
+}
+
 const CameraIntrinsics& LivePipeline::camera() const { return parts_->window.camera(); }
 
 OverloadSigns LivePipeline::Parts::signs() {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,6 +64,9 @@ class LivePipeline {
 
   // After stop(): one pose per frame, each at its keyframe's final pose.
   std::vector<TrajectoryPose> trajectory() const;
+  // The same with the keyframes elsewhere, by their sequence.
+  std::vector<TrajectoryPose> trajectory(
+      const std::map<std::uint64_t, Eigen::Isometry3d>& T_world_keyframes) const;
   const CameraIntrinsics& camera() const;
 
  private:

@@ -11,6 +11,7 @@ namespace sparsight {
 namespace {
 
 constexpr std::size_t kMatchesPerQuery = 10;
+constexpr int kQuestionsPerKeyframe = 2;   // of those that had to wait, one a keyframe
 constexpr std::size_t kMostPoints = 3000;  // of a keyframe's cloud
 // Of a step whose tracking failed: not a tenth of a turn, not ten metres.
 constexpr double kBoundRad = 0.5;
@@ -163,12 +164,16 @@ LoopCloser::LoopCloser(const OdometryConfig& config, std::shared_ptr<const Vocab
 
 LoopCloser::~LoopCloser() = default;
 
-bool LoopCloser::add(const RetiredKeyframe& keyframe, const CameraIntrinsics& camera) {
+bool LoopCloser::add(const RetiredKeyframe& keyframe, const CameraIntrinsics& camera, bool search) {
   State& s = *state_;
   if (keyframe.pyramid.empty()) return false;
   s.remember(keyframe, camera);
   const auto delay = static_cast<std::size_t>(s.config.neighbours);
-  return s.places.size() > s.asked + delay && s.ask(s.asked++);
+  bool moved = false;
+  for (int i = 0; search && i < kQuestionsPerKeyframe && s.places.size() > s.asked + delay; ++i) {
+    moved = s.ask(s.asked++) || moved;
+  }
+  return moved;
 }
 
 bool LoopCloser::finish() {

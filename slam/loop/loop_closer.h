@@ -40,8 +40,8 @@ class LoopCloser {
   ~LoopCloser();
 
   // The next keyframe of the odometry, seen through `camera`. It is asked about once its successors
-  // have come, whose depth it borrows. True if poses have moved.
-  bool add(const RetiredKeyframe& keyframe, const CameraIntrinsics& camera);
+  // have come, whose depth it borrows; without `search`, later still. True if poses have moved.
+  bool add(const RetiredKeyframe& keyframe, const CameraIntrinsics& camera, bool search = true);
   // At the end: asks about the last ones.
   bool finish();
 

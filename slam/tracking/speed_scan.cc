@@ -10,7 +10,7 @@ constexpr double kFastPx = 40.0;
 constexpr double kRange = 0.2;   // of the way; farther off, what moves along fits better
 constexpr double kStepPx = 4.0;  // of points at mean depth; a minimum at the finest level is wider
 constexpr int kMostSteps = 20;   // to each side
-constexpr double kLeastVisibleShare = 0.1;
+constexpr double kLeastInSight = 0.1;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ std::optional<Alignment> best_speed(
     Alignment at = found;
     at.T_camera_keyframe = T_keyframe_camera.inverse();
     at = assess(patches, image, camera, at, photometry, workspace);
-    if (at.visible_share < kLeastVisibleShare || !(at.cost < best_cost)) continue;
+    if (at.visible_share < kLeastInSight || !(at.cost < best_cost)) continue;
     best_cost = at.cost;
     best = at;
   }

@@ -100,6 +100,8 @@ TEST(LiveRun, TracksAndRecordsAPlayedWalkAsItsReplayDoes) {
   EXPECT_EQ(session.at("live").at("frames_dropped"), 0);
   EXPECT_EQ(session.at("live").at("events_unrecorded"), 0);
   EXPECT_LE(session.at("live").at("first_pose_s").get<double>(), 2.0);
+  EXPECT_EQ(session.at("loop_search").at("keyframes"), session.at("keyframes"));
+  EXPECT_TRUE(fs::exists(folder / "live" / "odometry.tum"));
   const json state = json::parse(live.output.substr(0, live.output.find('\n')));
   EXPECT_EQ(state.at("camera").at("state"), "streaming");
 

@@ -11,7 +11,9 @@
 #include "realtime/executor/service_notifier.h"
 #include "realtime/executor/thread_setup.h"
 #include "realtime/pipeline/live_pipeline.h"
+#include "slam/loop/loop_closer.h"
 #include "tools/configuration/rig_file.h"
+#include "tools/loop/vocabulary_file.h"
 #include "tools/session/frame_figures.h"
 #include "tools/session/interrupt.h"
 #include "tools/session/live_text.h"
@@ -55,6 +57,7 @@ class LiveRun {
         session_(options.folder, description(rig, options), options.map && options.odometry,
                  AtomicFile::Appears::kAtOnce),
         given_(rig.config.calibration.camera),
+        loops_(closer(options)),
         pipeline_(std::move(rig.devices), rig.config.calibration, options.config,
                   sync_config(rig.config), outputs(), live_config(rig, options)) {}
 
@@ -99,6 +102,11 @@ class LiveRun {
             .odometry = options.odometry};
   }
 
+  static std::unique_ptr<LoopCloser> closer(const LiveOptions& options) {
+    if (!options.odometry || !options.config.loop.enabled) return nullptr;
+    return std::make_unique<LoopCloser>(options.config, built_in_vocabulary());
+  }
+
   LiveOutputs outputs() {
     LiveOutputs outputs;
     if (recorder_) {
@@ -114,7 +122,8 @@ class LiveRun {
                         fault.message));
       }
     };
-    outputs.on_keyframe = [this](RetiredKeyframe&& keyframe, const KeyframeEffort&) {
+    outputs.on_keyframe = [this](RetiredKeyframe&& keyframe, const KeyframeEffort& effort) {
+      if (loops_) loops_->add(keyframe, given_, effort.search_loops);
       session_.add(keyframe);
     };
     return outputs;
@@ -177,7 +186,19 @@ class LiveRun {
     session.live = figures(wall);
     note_losses(session);
     if (options_.odometry) tell_camera_found(given_, pipeline_.camera(), session);
-    session_.end({.odometry = pipeline_.trajectory()}, wall);
+    session_.end(trajectories(), wall);
+  }
+
+  ReplayTrajectories trajectories() {
+    ReplayTrajectories result{.odometry = pipeline_.trajectory()};
+    if (loops_) {
+      loops_->finish();
+      result.corrected_keyframes = loops_->poses();
+      result.corrected = pipeline_.trajectory(result.corrected_keyframes);
+      session_.session().loops = loops_->loops();
+      session_.session().loop_statistics = loops_->statistics();
+    }
+    return result;
   }
 
   LiveFigures figures(std::chrono::nanoseconds wall) const {
@@ -227,7 +248,8 @@ class LiveRun {
   std::unique_ptr<Recorder> recorder_;
   SessionRecorder session_;
   CameraIntrinsics given_;
-  LivePipeline pipeline_;  // after what its outputs use
+  std::unique_ptr<LoopCloser> loops_;  // the background thread's, until the pipeline has stopped
+  LivePipeline pipeline_;              // after what its outputs use
   LiveStatus status_;
   LiveStatus shown_;
   std::chrono::nanoseconds shown_cpu_ = processor_time();

@@ -157,6 +157,23 @@ TEST(LoopCloser, TakesTheDriftOutOfAWalkThatComesBack) {
   EXPECT_LT(closer.loops()[0].candidate, closer.loops()[0].current);
 }
 
+TEST(LoopCloser, AsksLaterAboutKeyframesForWhichThereWasNoTime) {
+  const MadeWalk& walk = made_walk();
+  LoopCloser at_once(loop_settings(), shipped_vocabulary());
+  LoopCloser later(loop_settings(), shipped_vocabulary());
+  for (std::size_t i = 0; i < walk.truth.size(); ++i) {
+    at_once.add(walk.keyframe(i), walk.camera().intrinsics());
+    EXPECT_FALSE(later.add(walk.keyframe(i), walk.camera().intrinsics(), false));
+  }
+  EXPECT_TRUE(later.loops().empty());
+  at_once.finish();
+  later.finish();
+  ASSERT_EQ(later.loops().size(), at_once.loops().size());
+  for (std::size_t i = 0; i < later.loops().size(); ++i) {
+    EXPECT_EQ(later.loops()[i].current, at_once.loops()[i].current);
+  }
+}
+
 // Tracking is lost on the way, and what is predicted is metres off.
 std::size_t loops_across_a_jump(bool predicted) {
   const MadeWalk& walk = made_walk();
