@@ -17,17 +17,6 @@ constexpr std::size_t kMostPoints = 3000;  // of a keyframe's cloud
 constexpr double kBoundRad = 0.5;
 constexpr double kBoundM = 10.0;
 
-// All that is kept of a keyframe: 160 KB of an image of 800 x 600, three quarters of it the image.
-// Features are found again when they are asked for.
-struct Place {
-  std::uint64_t sequence = 0;
-  Eigen::Isometry3d T_odometry_camera = Eigen::Isometry3d::Identity();
-  CameraIntrinsics camera;  // at the level of the image
-  GreyImage image;
-  BagOfWords bag;
-  std::vector<Eigen::Vector3f> cloud_camera;
-};
-
 std::vector<Eigen::Vector3f> thinned_cloud(const std::vector<CloudPoint>& cloud) {
   const std::size_t step = 1 + cloud.size() / kMostPoints;
   std::vector<Eigen::Vector3f> result;
@@ -54,6 +43,17 @@ Matrix6d believable(const Matrix6d& information, double step_m, const LoopConfig
 }  // namespace
 
 struct LoopCloser::State {
+  // All that is kept of a keyframe: 160 KB of an image of 800 x 600, three quarters of it the
+  // image. Features are found again when they are asked for.
+  struct Place {
+    std::uint64_t sequence = 0;
+    Eigen::Isometry3d T_odometry_camera = Eigen::Isometry3d::Identity();
+    CameraIntrinsics camera;  // at the level of the image
+    GreyImage image;
+    BagOfWords bag;
+    std::vector<Eigen::Vector3f> cloud_camera;
+  };
+
   State(const OdometryConfig& settings, std::shared_ptr<const Vocabulary> words)
       : odometry(settings),
         config(settings.loop),
