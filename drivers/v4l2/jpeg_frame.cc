@@ -23,7 +23,10 @@ class JpegMarkers {
   explicit JpegMarkers(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
   std::optional<JpegExtent> extent() {
-    if (next_marker() != kStartOfImage) return std::nullopt;
+    // No fill byte before the first marker: decoders tell a JPEG from other formats by its first
+    // bytes, and what they take for another format reaches a parser that was never meant for it.
+    if (bytes_.size() < 2 || bytes_[0] != 0xFF || bytes_[1] != kStartOfImage) return std::nullopt;
+    at_ = 2;
     while (const auto marker = next_marker()) {
       if (*marker == kEndOfImage) {
         extent_.bytes = at_;
@@ -38,7 +41,7 @@ class JpegMarkers {
  private:
   std::size_t left() const { return bytes_.size() - at_; }
 
-  // Any number of fill bytes may stand before a marker (B.1.1.2).
+  // Any number of fill bytes may stand before a later marker (B.1.1.2).
   std::optional<std::uint8_t> next_marker() {
     if (left() < 2 || bytes_[at_] != 0xFF) return std::nullopt;
     while (at_ < bytes_.size() && bytes_[at_] == 0xFF) ++at_;

@@ -106,6 +106,13 @@ TEST(JpegFrame, ThatIsCutOffAnywhereIsRefused) {
 }
 
 // Two transfers of USB lost within the picture: restart markers are out of their order.
+// Decoders of other formats look for their names further on, as DICOM's does at byte 128.
+TEST(JpegFrame, ThatDoesNotBeginAsOneIsRefused) {
+  JpegBytes bytes = jpeg_of(slope_image(CV_8UC1));
+  bytes.insert(bytes.begin(), 0xFF);
+  EXPECT_FALSE(jpeg_extent(bytes));
+}
+
 TEST(JpegFrame, WithAHoleInItIsRefused) {
   JpegBytes bytes = jpeg_of(slope_image(CV_8UC1), {cv::IMWRITE_JPEG_RST_INTERVAL, 2});
   const std::size_t middle = bytes.size() / 2;
