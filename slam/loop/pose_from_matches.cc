@@ -11,6 +11,8 @@ std::optional<PoseFromMatches> pose_from_matches(const std::vector<Eigen::Vector
   if (static_cast<int>(points.size()) < std::max(kFewest, min_inliers)) return std::nullopt;
   std::vector<cv::Point3d> object;
   std::vector<cv::Point2d> image;
+  object.reserve(points.size());
+  image.reserve(normalized.size());
   for (const Eigen::Vector3d& p : points) object.emplace_back(p.x(), p.y(), p.z());
   for (const Eigen::Vector2d& p : normalized) image.emplace_back(p.x(), p.y());
   constexpr int kDraws = 300;

@@ -154,7 +154,7 @@ Alignment Tracker::past_other_minima(const TrackingTarget& keyframe, const Image
       patches, image.level(level), cameras_[index], keyframe.mean_inverse_depth, found, way,
       [&](const Eigen::Isometry3d& T) { return plausible(T, start); }, photometry_, workspace_);
   if (other) {
-    const Alignment refined = refine(keyframe, image, *other, level, level, photometry_);
+    Alignment refined = refine(keyframe, image, *other, level, level, photometry_);
     if (refined.cost < found.cost) return refined;
   }
   assess(patches, image.level(level), cameras_[index], found, photometry_, workspace_);
