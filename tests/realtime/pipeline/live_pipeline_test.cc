@@ -135,7 +135,7 @@ TEST(LivePipeline, LeavesOutLoopSearchesWhenTheBackgroundIsBehind) {
   live.odometry.keyframes.max_age_s = 0.05;
   live.odometry.window.size = 2;
   live.config.probe = [](LiveStage stage) {
-    if (stage == LiveStage::kBackground) std::this_thread::sleep_for(120ms);
+    if (stage == LiveStage::kBackground) std::this_thread::sleep_for(400ms);
   };
   live.run();
   EXPECT_GE(live.highest, Shed::kLoopSearch);
