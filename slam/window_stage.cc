@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "slam/points/camera_returns.h"
+#include "slam/points/visibility.h"
 #include "slam/tracking/strangers.h"
 
 namespace sparsight {
@@ -21,6 +22,23 @@ CloudPoint colored(const CameraReturn& r, const SynchronizedFrame& frame) {
     point.rgb.fill(frame.grey.at(u, v));
   }
   return point;
+}
+
+// What the camera does not see would take the colour of what hides it.
+std::vector<CloudPoint> colored(const std::vector<CameraReturn>& returns, const CameraModel& camera,
+                                const SynchronizedFrame& frame) {
+  const std::vector<bool> hidden = hidden_from_camera(returns, camera);
+  std::vector<CloudPoint> cloud;
+  cloud.reserve(returns.size());
+  for (std::size_t i = 0; i < returns.size(); ++i) {
+    if (hidden[i]) {
+      cloud.push_back(
+          {.p_camera = returns[i].p_camera, .intensity = returns[i].intensity, .colored = false});
+    } else {
+      cloud.push_back(colored(returns[i], frame));
+    }
+  }
+  return cloud;
 }
 
 double mean_inverse_depth(const std::vector<SelectedPoint>& points) {
@@ -95,8 +113,7 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
     weigh_down_strangers(keyframe->patches, window_.latest().pyramid.level(0), camera_,
                          tracked.outcome.tracking.T_keyframe_camera);
   }
-  keyframe->cloud_camera.reserve(returns.size());
-  for (const CameraReturn& r : returns) keyframe->cloud_camera.push_back(colored(r, frame));
+  keyframe->cloud_camera = colored(returns, camera_, frame);
   return keyframe;
 }
 

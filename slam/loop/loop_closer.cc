@@ -43,21 +43,22 @@ Matrix6d believable(const Matrix6d& information, double step_m, const LoopConfig
 }  // namespace
 
 struct LoopCloser::State {
-  // All that is kept of a keyframe: 160 KB of an image of 800 x 600, three quarters of it the
-  // image. Features are found again when they are asked for.
+  // All that is kept in memory of a keyframe, some 15 KB with what database and graph know of it:
+  // nearly all of it its words. Features are found again when they are asked for.
   struct Place {
     std::uint64_t sequence = 0;
     Eigen::Isometry3d T_odometry_camera = Eigen::Isometry3d::Identity();
     CameraIntrinsics camera;  // at the level of the image
-    GreyImage image;
     BagOfWords bag;
-    std::vector<Eigen::Vector3f> cloud_camera;
+    std::size_t stored = 0;  // its image and cloud
   };
 
-  State(const OdometryConfig& settings, std::shared_ptr<const Vocabulary> words)
+  State(const OdometryConfig& settings, std::shared_ptr<const Vocabulary> words,
+        std::shared_ptr<KeyframeStore> bulk)
       : odometry(settings),
         config(settings.loop),
         vocabulary(std::move(words)),
+        store(std::move(bulk)),
         database(vocabulary->words()),
         filter(config.consistent_queries),
         graph(config.dcs_phi) {}
@@ -65,6 +66,7 @@ struct LoopCloser::State {
   OdometryConfig odometry;
   LoopConfig config;
   std::shared_ptr<const Vocabulary> vocabulary;
+  std::shared_ptr<KeyframeStore> store;
   PlaceDatabase database;
   CandidateFilter filter;
   LoopGraph graph;
@@ -85,11 +87,12 @@ void LoopCloser::State::remember(const RetiredKeyframe& keyframe, const CameraIn
   const int level = std::min(config.image_level, keyframe.pyramid.levels() - 1);
   Place place{.sequence = keyframe.sequence,
               .T_odometry_camera = keyframe.T_world_camera,
-              .camera = CameraModel(camera).at_level(level).intrinsics(),
-              .image = keyframe.pyramid.level(level),
-              .cloud_camera = thinned_cloud(keyframe.cloud_camera)};
-  const OrbFeatures features = orb_features(place.image, {.features = config.features});
+              .camera = CameraModel(camera).at_level(level).intrinsics()};
+  const GreyImage& image = keyframe.pyramid.level(level);
+  const OrbFeatures features = orb_features(image, {.features = config.features});
   place.bag = vocabulary->bag_of(features.descriptors);
+  place.bag.shrink_to_fit();
+  place.stored = store->put({.image = image, .cloud_camera = keyframe.cloud_camera});
   database.add(place.bag);
   if (places.empty()) {
     graph.add_first(keyframe.T_world_camera);
@@ -118,15 +121,21 @@ double LoopCloser::State::similarity_with_neighbours(std::size_t index) const {
 LoopView LoopCloser::State::view_of(std::size_t index) const {
   const auto reach = static_cast<std::size_t>(config.neighbours);
   const Place& place = places[index];
+  LoopView view;
+  std::vector<std::vector<Eigen::Vector3f>> points;
   std::vector<NearbyCloud> clouds;
   for (std::size_t other = index - std::min(index, reach);
        other <= std::min(index + reach, places.size() - 1); ++other) {
-    clouds.push_back({place.T_odometry_camera.inverse() * places[other].T_odometry_camera,
-                      places[other].cloud_camera});
+    auto bulk = store->get(places[other].stored);
+    if (!bulk) continue;
+    points.push_back(thinned_cloud(bulk->cloud_camera));
+    clouds.push_back(
+        {place.T_odometry_camera.inverse() * places[other].T_odometry_camera, points.back()});
+    if (other == index) view.image = std::move(bulk->image);
   }
-  return {.image = place.image,
-          .returns = integrated_depth(clouds, CameraModel(place.camera)),
-          .features = orb_features(place.image, {.features = config.features})};
+  view.returns = integrated_depth(clouds, CameraModel(place.camera));
+  view.features = orb_features(view.image, {.features = config.features});
+  return view;
 }
 
 bool LoopCloser::State::verify(std::size_t index, std::size_t candidate) {
@@ -159,8 +168,11 @@ bool LoopCloser::State::ask(std::size_t index) {
   return false;
 }
 
-LoopCloser::LoopCloser(const OdometryConfig& config, std::shared_ptr<const Vocabulary> vocabulary)
-    : state_(std::make_unique<State>(config, std::move(vocabulary))) {}
+LoopCloser::LoopCloser(const OdometryConfig& config, std::shared_ptr<const Vocabulary> vocabulary,
+                       std::shared_ptr<KeyframeStore> store)
+    : state_(std::make_unique<State>(
+          config, std::move(vocabulary),
+          store ? std::move(store) : std::make_shared<MemoryKeyframeStore>())) {}
 
 LoopCloser::~LoopCloser() = default;
 
@@ -183,13 +195,22 @@ bool LoopCloser::finish() {
   return moved;
 }
 
-std::map<std::uint64_t, Eigen::Isometry3d> LoopCloser::poses() const {
+std::vector<PlacedKeyframe> LoopCloser::placed() const {
   const State& s = *state_;
   const bool as_odometry = s.found.empty();  // to the last digit
-  std::map<std::uint64_t, Eigen::Isometry3d> result;
+  std::vector<PlacedKeyframe> result;
   for (std::size_t i = 0; i < s.places.size(); ++i) {
-    result[s.places[i].sequence] =
-        as_odometry ? s.places[i].T_odometry_camera : s.graph.graph().T_world_node[i];
+    const State::Place& place = s.places[i];
+    result.push_back({place.sequence, place.stored, place.camera,
+                      as_odometry ? place.T_odometry_camera : s.graph.graph().T_world_node[i]});
+  }
+  return result;
+}
+
+std::map<std::uint64_t, Eigen::Isometry3d> LoopCloser::poses() const {
+  std::map<std::uint64_t, Eigen::Isometry3d> result;
+  for (const PlacedKeyframe& keyframe : placed()) {
+    result[keyframe.sequence] = keyframe.T_world_camera;
   }
   return result;
 }

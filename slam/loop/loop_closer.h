@@ -12,6 +12,7 @@
 #include "slam/loop/loop_verification.h"
 #include "slam/loop/place_database.h"
 #include "slam/loop/vocabulary.h"
+#include "slam/map/keyframe_store.h"
 #include "slam/odometry.h"
 
 namespace sparsight {
@@ -21,6 +22,14 @@ struct LoopClosure {
   std::uint64_t candidate = 0;  // sequence numbers of the two keyframes, the earlier first
   std::uint64_t current = 0;
   LoopCheck check;
+};
+
+// Where the graph has a keyframe.
+struct PlacedKeyframe {
+  std::uint64_t sequence = 0;
+  std::size_t stored = 0;   // its number in the store
+  CameraIntrinsics camera;  // of the stored image
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
 };
 
 // What became of the queries, for people.
@@ -36,7 +45,9 @@ struct LoopStatistics {
 // and keeps the pose graph. Thread-bound, deterministic; no part of tracking waits for it.
 class LoopCloser {
  public:
-  LoopCloser(const OdometryConfig& config, std::shared_ptr<const Vocabulary> vocabulary);
+  // Images and clouds go to the store, which is in memory if none is given.
+  LoopCloser(const OdometryConfig& config, std::shared_ptr<const Vocabulary> vocabulary,
+             std::shared_ptr<KeyframeStore> store = nullptr);
   ~LoopCloser();
 
   // The next keyframe of the odometry, seen through `camera`. It is asked about once its successors
@@ -47,6 +58,8 @@ class LoopCloser {
 
   // The poses of all keyframes so far, by their sequence.
   std::map<std::uint64_t, Eigen::Isometry3d> poses() const;
+  // The same with what else the map needs to know of them, in the order they were added.
+  std::vector<PlacedKeyframe> placed() const;
   // Loops that stand, in the order they were found.
   std::vector<LoopClosure> loops() const;
   const LoopStatistics& statistics() const;

@@ -54,10 +54,11 @@ class LiveRun {
   LiveRun(LiveRig rig, const LiveOptions& options, std::unique_ptr<Recorder> recorder)
       : options_(options),
         recorder_(std::move(recorder)),
-        session_(options.folder, description(rig, options), options.map && options.odometry,
+        session_(options.folder, description(rig, options),
+                 options.odometry ? options.map : std::vector<CloudFormat>{},
                  AtomicFile::Appears::kAtOnce),
         given_(rig.config.calibration.camera),
-        loops_(closer(options)),
+        loops_(closer(options, session_.keyframes())),
         pipeline_(std::move(rig.devices), rig.config.calibration, options.config,
                   sync_config(rig.config), outputs(), live_config(rig, options)) {}
 
@@ -102,9 +103,11 @@ class LiveRun {
             .odometry = options.odometry};
   }
 
-  static std::unique_ptr<LoopCloser> closer(const LiveOptions& options) {
+  static std::unique_ptr<LoopCloser> closer(const LiveOptions& options,
+                                            std::shared_ptr<KeyframeStore> keyframes) {
     if (!options.odometry || !options.config.loop.enabled) return nullptr;
-    return std::make_unique<LoopCloser>(options.config, built_in_vocabulary());
+    return std::make_unique<LoopCloser>(options.config, built_in_vocabulary(),
+                                        std::move(keyframes));
   }
 
   LiveOutputs outputs() {
@@ -193,8 +196,8 @@ class LiveRun {
     ReplayTrajectories result{.odometry = pipeline_.trajectory()};
     if (loops_) {
       loops_->finish();
-      result.corrected_keyframes = loops_->poses();
-      result.corrected = pipeline_.trajectory(result.corrected_keyframes);
+      result.placed = loops_->placed();
+      result.corrected = pipeline_.trajectory(loops_->poses());
       session_.session().loops = loops_->loops();
       session_.session().loop_statistics = loops_->statistics();
     }

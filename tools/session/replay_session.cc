@@ -45,13 +45,14 @@ int camera_of(const ReplayOptions& options) {
   return 0;
 }
 
-SessionDescription describe(const ReplayOptions& options, const RigCalibration& calibration) {
+SessionDescription describe(const ReplayOptions& options, const OpenedSource& source) {
   return {.source = options.source,
           .profile_name = options.profile_name,
           .config = options.config,
           .rays = options.rays,
           .camera = camera_of(options),
-          .calibration = calibration};
+          .calibration = source.frames->calibration(),
+          .full_intensity = source.full_intensity};
 }
 
 std::optional<std::size_t> frames_to_come(const FrameSource& source, const ReplayOptions& options) {
@@ -77,10 +78,12 @@ void run(FrameSource& source, const ReplayOptions& options, SessionRecorder& rec
   InterruptibleSource interruptible(source, interrupt);
   const auto start = Clock::now();
   ReplayTrajectories trajectories;
+  std::optional<LoopCloser> loops;
+  if (options.config.loop.enabled) {
+    loops.emplace(options.config, built_in_vocabulary(), recorder.keyframes());
+  }
   try {
     Odometry odometry(source.calibration(), options.config);
-    std::optional<LoopCloser> loops;
-    if (options.config.loop.enabled) loops.emplace(options.config, built_in_vocabulary());
     trajectories = replay_deterministic(interruptible, odometry, options.max_frames,
                                         {.on_frame = on_frame, .on_keyframe = on_keyframe},
                                         loops ? &*loops : nullptr);
@@ -92,6 +95,7 @@ void run(FrameSource& source, const ReplayOptions& options, SessionRecorder& rec
     if (interrupt.pending()) recorder.session().broke_off = "stopped on request";
   } catch (const std::exception& error) {
     recorder.session().broke_off = fmt::format("the replay broke off: {}", error.what());
+    if (loops) trajectories.placed = loops->placed();
   }
   progress.end();
   recorder.end(std::move(trajectories), Clock::now() - start);
@@ -114,7 +118,7 @@ Result<ReplayResult> replay_session(const ReplayOptions& options) {
   auto folder = claim_session_folder(options.output, options.source, options.rays);
   if (!folder) return tl::unexpected(folder.error());
 
-  SessionRecorder recorder(*folder, describe(options, source->frames->calibration()), options.map);
+  SessionRecorder recorder(*folder, describe(options, *source), options.map);
   if (auto begun = recorder.begin(); !begun) return tl::unexpected(begun.error());
   run(*source->frames, options, recorder);
   for (std::string& remark : source->remarks()) {
