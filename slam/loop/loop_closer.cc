@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "slam/loop/integrated_depth.h"
+#include "slam/loop/join_evidence.h"
 
 namespace sparsight {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr std::size_t kMatchesPerQuery = 10;
 constexpr int kQuestionsPerKeyframe = 2;   // of those that had to wait, one a keyframe
 constexpr std::size_t kMostPoints = 3000;  // of a keyframe's cloud
-// Of a step whose tracking failed: not a tenth of a turn, not ten metres.
+// Of a step of which nothing is known: not a tenth of a turn, not ten metres.
 constexpr double kBoundRad = 0.5;
 constexpr double kBoundM = 10.0;
 
@@ -46,7 +47,9 @@ struct LoopCloser::State {
   // All that is kept in memory of a keyframe, some 15 KB with what database and graph know of it:
   // nearly all of it its words. Features are found again when they are asked for.
   struct Place {
+    std::uint32_t session = 0;
     std::uint64_t sequence = 0;
+    std::size_t submap = 0;  // the first place of its sub-map
     Eigen::Isometry3d T_odometry_camera = Eigen::Isometry3d::Identity();
     CameraIntrinsics camera;  // at the level of the image
     BagOfWords bag;
@@ -61,7 +64,8 @@ struct LoopCloser::State {
         store(std::move(bulk)),
         database(vocabulary->words()),
         filter(config.consistent_queries),
-        graph(config.dcs_phi) {}
+        graph(config.dcs_phi),
+        evidence(config.join) {}
 
   OdometryConfig odometry;
   LoopConfig config;
@@ -70,22 +74,33 @@ struct LoopCloser::State {
   PlaceDatabase database;
   CandidateFilter filter;
   LoopGraph graph;
+  JoinEvidence evidence;  // for sub-maps that nothing connects
   std::vector<Place> places;
+  std::size_t earlier = 0;                            // the first of them are an earlier map's
+  std::uint32_t session = 0;                          // this one
   std::optional<RetiredKeyframe::Successor> to_next;  // of the last place
   std::size_t asked = 0;                              // places that were asked about
-  std::vector<LoopClosure> found;                     // also those taken out since
+  std::vector<SeenAgain> found;                       // also those taken out since
   LoopStatistics statistics;
 
   void remember(const RetiredKeyframe& keyframe, const CameraIntrinsics& camera);
   bool ask(std::size_t index);
   bool verify(std::size_t index, std::size_t candidate);
+  bool believe(const SeenAgain& loop);
+  bool join(const SeenAgain& loop);
+  bool continues(const RetiredKeyframe& keyframe) const;
+  void put_in_graph(const RetiredKeyframe& keyframe, bool begins_submap);
+  bool in_earlier_map(std::size_t index) const;
+  bool reaches(std::size_t part) const;
+  std::pair<std::size_t, std::size_t> neighbourhood(std::size_t index) const;
   double similarity_with_neighbours(std::size_t index) const;
   LoopView view_of(std::size_t index) const;
 };
 
 void LoopCloser::State::remember(const RetiredKeyframe& keyframe, const CameraIntrinsics& camera) {
   const int level = std::min(config.image_level, keyframe.pyramid.levels() - 1);
-  Place place{.sequence = keyframe.sequence,
+  Place place{.session = session,
+              .sequence = keyframe.sequence,
               .T_odometry_camera = keyframe.T_world_camera,
               .camera = CameraModel(camera).at_level(level).intrinsics()};
   const GreyImage& image = keyframe.pyramid.level(level);
@@ -94,38 +109,60 @@ void LoopCloser::State::remember(const RetiredKeyframe& keyframe, const CameraIn
   place.bag.shrink_to_fit();
   place.stored = store->put({.image = image, .cloud_camera = keyframe.cloud_camera});
   database.add(place.bag);
-  if (places.empty()) {
-    graph.add_first(keyframe.T_world_camera);
-  } else {
-    const Eigen::Isometry3d T_last_next =
-        places.back().T_odometry_camera.inverse() * keyframe.T_world_camera;
-    const bool known = to_next && to_next->sequence == keyframe.sequence && !keyframe.predicted;
-    graph.add_next(T_last_next, believable(known ? to_next->information : Matrix6d::Zero(),
-                                           T_last_next.translation().norm(), config));
-  }
+  place.submap = continues(keyframe) ? places.back().submap : places.size();
+  put_in_graph(keyframe, place.submap == places.size());
   to_next = keyframe.successor;
   places.push_back(std::move(place));
   ++statistics.keyframes;
 }
 
-double LoopCloser::State::similarity_with_neighbours(std::size_t index) const {
+// Whether odometry measured where it stands relative to the keyframe before: if that names it as
+// the next, and tracking had not lost its way between them. What does not continue begins a
+// sub-map.
+bool LoopCloser::State::continues(const RetiredKeyframe& keyframe) const {
+  return to_next && to_next->sequence == keyframe.sequence && !keyframe.predicted;
+}
+
+void LoopCloser::State::put_in_graph(const RetiredKeyframe& keyframe, bool begins_submap) {
+  if (places.size() == earlier) {
+    graph.begin_submap(keyframe.T_world_camera);
+    return;
+  }
+  const Eigen::Isometry3d T_last_next =
+      places.back().T_odometry_camera.inverse() * keyframe.T_world_camera;
+  if (begins_submap) {  // by the odometry's guess, until something better is known
+    graph.begin_submap(renormalized(graph.graph().T_world_node.back() * T_last_next));
+    return;
+  }
+  graph.add_next(T_last_next,
+                 believable(to_next->information, T_last_next.translation().norm(), config));
+}
+
+// The places on either side that odometry connects it with: from the first to the last.
+std::pair<std::size_t, std::size_t> LoopCloser::State::neighbourhood(std::size_t index) const {
   const auto reach = static_cast<std::size_t>(config.neighbours);
+  const std::size_t first = std::max(places[index].submap, index - std::min(index, reach));
+  std::size_t last = std::min(index + reach, places.size() - 1);
+  while (places[last].submap != places[index].submap) --last;
+  return {first, last};
+}
+
+double LoopCloser::State::similarity_with_neighbours(std::size_t index) const {
   double least = 1.0;
-  for (std::size_t other = index - std::min(index, reach);
-       other <= std::min(index + reach, places.size() - 1); ++other) {
+  const auto [first, last] = neighbourhood(index);
+  for (std::size_t other = first; other <= last; ++other) {
     if (other != index) least = std::min(least, similarity(places[index].bag, places[other].bag));
   }
   return least;
 }
 
 LoopView LoopCloser::State::view_of(std::size_t index) const {
-  const auto reach = static_cast<std::size_t>(config.neighbours);
   const Place& place = places[index];
   LoopView view;
   std::vector<std::vector<Eigen::Vector3f>> points;
   std::vector<NearbyCloud> clouds;
-  for (std::size_t other = index - std::min(index, reach);
-       other <= std::min(index + reach, places.size() - 1); ++other) {
+  const auto [first, last] = neighbourhood(index);
+  for (std::size_t other = first; other <= last; ++other) {
     auto bulk = store->get(places[other].stored);
     if (!bulk) continue;
     points.push_back(thinned_cloud(bulk->cloud_camera));
@@ -145,18 +182,51 @@ bool LoopCloser::State::verify(std::size_t index, std::size_t candidate) {
   const LoopCheck check = verifier.check(view_of(index), view_of(candidate));
   ++statistics.verdicts[check.verdict];
   if (check.verdict != LoopCheck::Verdict::kAccepted) return false;
-  if (!graph.add_loop(index, candidate, check.T_current_candidate, check.information)) {
+  const SeenAgain loop{.current = index, .candidate = candidate, .check = check};
+  return graph.connected(index, candidate) ? believe(loop) : join(loop);
+}
+
+// Between keyframes that are connected already.
+bool LoopCloser::State::believe(const SeenAgain& loop) {
+  if (!graph.add_loop(loop.current, loop.candidate, loop.check.T_current_candidate,
+                      loop.check.information)) {
     ++statistics.contradicted;
     return false;
   }
-  found.push_back(
-      {.candidate = places[candidate].sequence, .current = places[index].sequence, .check = check});
+  found.push_back(loop);
   return true;
+}
+
+// Between sub-maps that nothing connects.
+bool LoopCloser::State::join(const SeenAgain& loop) {
+  const std::vector<SeenAgain> agreeing = evidence.add(loop, graph);
+  if (agreeing.empty()) return false;
+  std::vector<PoseEdge> edges;
+  for (const SeenAgain& one : agreeing) edges.push_back(one.edge());
+  if (!graph.join(edges)) return false;
+  ++statistics.submaps_joined;
+  found.insert(found.end(), agreeing.begin(), agreeing.end());
+  evidence.drop_connected(graph);
+  return true;
+}
+
+// Whether its pose is in the frame of the earlier map: one of its own, or joined to it.
+bool LoopCloser::State::in_earlier_map(std::size_t index) const {
+  return graph.part_of(index) < earlier;
+}
+
+// Whether a keyframe of this session is in the part.
+bool LoopCloser::State::reaches(std::size_t part) const {
+  for (std::size_t i = earlier; i < places.size(); ++i) {
+    if (graph.part_of(i) == part) return true;
+  }
+  return false;
 }
 
 bool LoopCloser::State::ask(std::size_t index) {
   const auto recent = static_cast<std::size_t>(config.recent_keyframes);
-  const std::size_t end = index > recent ? index - recent : 0;
+  // However recent: no odometry leads to the sub-maps before.
+  const std::size_t end = std::max(places[index].submap, index - std::min(index, recent));
   const std::vector<PlaceMatch> matches =
       database.query(places[index].bag, end, similarity_with_neighbours(index), kMatchesPerQuery);
   if (!matches.empty()) ++statistics.queries;
@@ -195,14 +265,58 @@ bool LoopCloser::finish() {
   return moved;
 }
 
+void LoopCloser::resume(KnownPlaces earlier) {
+  State& s = *state_;
+  PoseGraph graph{.edges = std::move(earlier.edges)};
+  for (KnownKeyframe& keyframe : earlier.keyframes) {
+    graph.T_world_node.push_back(keyframe.T_map_camera);
+    s.database.add(keyframe.bag);
+    s.session = std::max(s.session, keyframe.session + 1);
+    s.places.push_back({.session = keyframe.session,
+                        .sequence = keyframe.sequence,
+                        .submap = keyframe.submap,
+                        .T_odometry_camera = keyframe.T_odometry_camera,
+                        .camera = keyframe.camera,
+                        .bag = std::move(keyframe.bag),
+                        .stored = s.places.size()});
+  }
+  s.graph.resume(std::move(graph));
+  s.earlier = s.asked = s.places.size();
+}
+
+KnownPlaces LoopCloser::known() const {
+  const State& s = *state_;
+  KnownPlaces known{.edges = s.graph.graph().edges};
+  for (std::size_t i = 0; i < s.places.size(); ++i) {
+    const State::Place& place = s.places[i];
+    known.keyframes.push_back({.session = place.session,
+                               .sequence = place.sequence,
+                               .submap = place.submap,
+                               .camera = place.camera,
+                               .T_odometry_camera = place.T_odometry_camera,
+                               .T_map_camera = s.graph.graph().T_world_node[i],
+                               .bag = place.bag});
+  }
+  return known;
+}
+
 std::vector<PlacedKeyframe> LoopCloser::placed() const {
   const State& s = *state_;
   const bool as_odometry = s.found.empty();  // to the last digit
   std::vector<PlacedKeyframe> result;
+  std::map<std::size_t, bool> reached;
   for (std::size_t i = 0; i < s.places.size(); ++i) {
     const State::Place& place = s.places[i];
-    result.push_back({place.sequence, place.stored, place.camera,
-                      as_odometry ? place.T_odometry_camera : s.graph.graph().T_world_node[i]});
+    const bool own = i >= s.earlier;
+    const std::size_t part = s.graph.part_of(i);
+    if (!own && !reached.contains(part)) reached[part] = s.reaches(part);
+    if (!own && !reached[part]) continue;
+    result.push_back({.sequence = place.sequence,
+                      .in_earlier_map = !own,
+                      .stored = place.stored,
+                      .camera = place.camera,
+                      .T_world_camera = own && as_odometry ? place.T_odometry_camera
+                                                           : s.graph.graph().T_world_node[i]});
   }
   return result;
 }
@@ -210,7 +324,20 @@ std::vector<PlacedKeyframe> LoopCloser::placed() const {
 std::map<std::uint64_t, Eigen::Isometry3d> LoopCloser::poses() const {
   std::map<std::uint64_t, Eigen::Isometry3d> result;
   for (const PlacedKeyframe& keyframe : placed()) {
-    result[keyframe.sequence] = keyframe.T_world_camera;
+    if (!keyframe.in_earlier_map) result[keyframe.sequence] = keyframe.T_world_camera;
+  }
+  return result;
+}
+
+std::vector<Submap> LoopCloser::submaps() const {
+  const State& s = *state_;
+  std::vector<Submap> result;
+  for (std::size_t i = s.earlier; i < s.places.size(); ++i) {
+    if (s.places[i].submap == i) result.push_back({.first_keyframe = s.places[i].sequence});
+    ++result.back().keyframes;
+    const std::size_t oldest = s.graph.part_of(i);
+    result.back().part = s.places[s.places[oldest].submap].sequence;
+    result.back().in_earlier_map = s.in_earlier_map(i);
   }
   return result;
 }
@@ -218,12 +345,15 @@ std::map<std::uint64_t, Eigen::Isometry3d> LoopCloser::poses() const {
 std::vector<LoopClosure> LoopCloser::loops() const {
   const State& s = *state_;
   std::vector<LoopClosure> standing;
-  for (const LoopClosure& loop : s.found) {
+  for (const SeenAgain& loop : s.found) {
     const bool stands = std::ranges::any_of(s.graph.graph().edges, [&](const PoseEdge& edge) {
-      return edge.loop && s.places[edge.from].sequence == loop.current &&
-             s.places[edge.to].sequence == loop.candidate;
+      return edge.loop && edge.from == loop.current && edge.to == loop.candidate;
     });
-    if (stands) standing.push_back(loop);
+    if (!stands) continue;
+    standing.push_back({.candidate = s.places[loop.candidate].sequence,
+                        .current = s.places[loop.current].sequence,
+                        .check = loop.check,
+                        .in_earlier_map = loop.candidate < s.earlier});
   }
   return standing;
 }
