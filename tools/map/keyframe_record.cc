@@ -11,8 +11,8 @@
 namespace sparsight {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x31464b53;  // "SKF1"
-constexpr std::size_t kHeadBytes = 12;
+constexpr std::uint32_t kRecordMagic = 0x31464b53;  // "SKF1"
+constexpr std::size_t kRecordHeadBytes = 12;
 constexpr std::size_t kPointBytes = 20;
 constexpr std::uint32_t kLargestSide = 1 << 15;  // pixels
 constexpr std::uint8_t kColored = 1;
@@ -63,17 +63,17 @@ tl::unexpected<Error> damaged(const std::string& source, const char* what) {
 
 std::vector<std::uint8_t> keyframe_record(const KeyframeBulk& bulk) {
   std::vector<std::uint8_t> record;
-  record.reserve(kHeadBytes + 12 + bulk.image.pixels.size() +
+  record.reserve(kRecordHeadBytes + 12 + bulk.image.pixels.size() +
                  kPointBytes * bulk.cloud_camera.size());
   ByteWriter writer(record);
-  writer.number(kMagic);
+  writer.number(kRecordMagic);
   writer.number<std::uint64_t>(0);  // length and checksum, when they are known
   writer.number(static_cast<std::uint32_t>(bulk.image.width));
   writer.number(static_cast<std::uint32_t>(bulk.image.height));
   writer.bytes(bulk.image.pixels);
   writer.number(static_cast<std::uint32_t>(bulk.cloud_camera.size()));
   for (const CloudPoint& point : bulk.cloud_camera) write_point(point, writer);
-  const Bytes payload = Bytes(record).subspan(kHeadBytes);
+  const Bytes payload = Bytes(record).subspan(kRecordHeadBytes);
   writer.patch(4, static_cast<std::uint32_t>(payload.size()));
   writer.patch(8, crc32_of(payload));
   return record;
@@ -84,9 +84,9 @@ Result<KeyframeBulk> parse_keyframe_record(Bytes record, const std::string& sour
   const auto magic = reader.number<std::uint32_t>();
   const auto length = reader.number<std::uint32_t>();
   const auto checksum = reader.number<std::uint32_t>();
-  if (!reader.ok() || magic != kMagic) return damaged(source, "no keyframe stands here");
+  if (!reader.ok() || magic != kRecordMagic) return damaged(source, "no keyframe stands here");
   if (length != reader.left()) return damaged(source, "its length is not what it says");
-  if (crc32_of(record.subspan(kHeadBytes)) != checksum) return damaged(source, "checksum");
+  if (crc32_of(record.subspan(kRecordHeadBytes)) != checksum) return damaged(source, "checksum");
   KeyframeBulk bulk;
   if (!read_image(reader, bulk.image)) return damaged(source, "its image is cut off");
   if (!read_cloud(reader, bulk.cloud_camera)) return damaged(source, "its cloud is cut off");

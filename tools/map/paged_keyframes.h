@@ -17,7 +17,7 @@ namespace sparsight {
 class PagedKeyframes : public KeyframeStore {
  public:
   struct Place {
-    std::uint32_t file = 0;             // as files() has them
+    std::uint32_t file = 0;               // as files() has them
     std::optional<KeyframePlace> record;  // none: it could not be kept
   };
 
@@ -25,6 +25,7 @@ class PagedKeyframes : public KeyframeStore {
   void take_over(std::vector<KeyframeFile> files, std::vector<Place> places);
   // Where new ones go; without, none is kept.
   void write_to(KeyframeFile file);
+  bool writes() const { return written_.has_value(); }
 
   std::size_t put(const KeyframeBulk& bulk) override;
   std::optional<KeyframeBulk> get(std::size_t number) override;

@@ -62,7 +62,14 @@ class LiveRun {
         pipeline_(std::move(rig.devices), rig.config.calibration, options.config,
                   sync_config(rig.config), outputs(), live_config(rig, options)) {}
 
-  Result<void> begin() { return session_.begin(); }
+  Result<void> begin() {
+    auto map = SessionMap::open(options_.maps, options_.config.loop, given_, *built_in_vocabulary(),
+                                *session_.keyframes());
+    if (!map) return tl::unexpected(map.error());
+    map_ = std::move(*map);
+    if (loops_) map_.resume(*loops_);
+    return session_.begin();
+  }
   void note(const std::string& remark) {
     say("note: " + remark);
     session_.session().notes.push_back(remark);
@@ -87,6 +94,7 @@ class LiveRun {
   Result<LiveResult> result() {
     if (auto written = session_.write(); !written) return tl::unexpected(written.error());
     auto failure = options_.odometry ? failure_of(session_.session()) : std::nullopt;
+    if (!saved_) failure = saved_.error();
     return LiveResult{std::move(session_.session()), std::move(failure)};
   }
 
@@ -190,6 +198,16 @@ class LiveRun {
     note_losses(session);
     if (options_.odometry) tell_camera_found(given_, pipeline_.camera(), session);
     session_.end(trajectories(), wall);
+    if (loops_) save_map();
+  }
+
+  void save_map() {
+    saved_ = map_.save(*loops_, *built_in_vocabulary(),
+                       session_.session().description.source.string(), *session_.keyframes());
+    if (!saved_) return;
+    for (const std::string& remark : map_.remarks(*loops_)) {
+      session_.session().notes.push_back(remark);
+    }
   }
 
   ReplayTrajectories trajectories() {
@@ -252,7 +270,9 @@ class LiveRun {
   SessionRecorder session_;
   CameraIntrinsics given_;
   std::unique_ptr<LoopCloser> loops_;  // the background thread's, until the pipeline has stopped
-  LivePipeline pipeline_;              // after what its outputs use
+  SessionMap map_;
+  Result<void> saved_;
+  LivePipeline pipeline_;  // after what its outputs use
   LiveStatus status_;
   LiveStatus shown_;
   std::chrono::nanoseconds shown_cpu_ = processor_time();

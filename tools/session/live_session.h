@@ -9,6 +9,7 @@
 #include "hal/result.h"
 #include "slam/odometry_config.h"
 #include "tools/cloud/cloud_file.h"
+#include "tools/map/session_map.h"
 #include "tools/session/live_devices.h"
 #include "tools/session/session.h"
 
@@ -21,6 +22,7 @@ struct LiveOptions {
   bool odometry = true;          // false: record only
   bool recording = true;
   std::vector<CloudFormat> map = {CloudFormat::kPly};  // files of it; none: no map
+  SessionMapOptions maps;                              // to go on in, and to leave
   bool realtime = true;
   bool json = false;
   bool quiet = false;

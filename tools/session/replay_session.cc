@@ -61,8 +61,20 @@ std::optional<std::size_t> frames_to_come(const FrameSource& source, const Repla
   return count ? std::min(*count, *options.max_frames) : *options.max_frames;
 }
 
-// Runs to the end of the source, or until it breaks off: then what has been gathered stands.
-void run(FrameSource& source, const ReplayOptions& options, SessionRecorder& recorder) {
+Result<void> save(SessionMap& map, const LoopCloser& loops, SessionRecorder& recorder) {
+  auto saved = map.save(loops, *built_in_vocabulary(),
+                        recorder.session().description.source.string(), *recorder.keyframes());
+  if (!saved) return saved;
+  for (std::string& remark : map.remarks(loops)) {
+    recorder.session().notes.push_back(std::move(remark));
+  }
+  return {};
+}
+
+// Runs to the end of the source, or until it breaks off: then what has been gathered stands. An
+// error if the map could not be saved.
+Result<void> run(FrameSource& source, const ReplayOptions& options, SessionMap& map,
+                 SessionRecorder& recorder) {
   Progress progress(stderr, Progress::style_for(stderr, options.quiet),
                     frames_to_come(source, options));
   const auto on_frame = [&](const FrameRecord& record) {
@@ -78,9 +90,11 @@ void run(FrameSource& source, const ReplayOptions& options, SessionRecorder& rec
   InterruptibleSource interruptible(source, interrupt);
   const auto start = Clock::now();
   ReplayTrajectories trajectories;
+  bool whole = true;  // what was cut off in the middle of a step is no map
   std::optional<LoopCloser> loops;
   if (options.config.loop.enabled) {
     loops.emplace(options.config, built_in_vocabulary(), recorder.keyframes());
+    map.resume(*loops);
   }
   try {
     Odometry odometry(source.calibration(), options.config);
@@ -96,9 +110,11 @@ void run(FrameSource& source, const ReplayOptions& options, SessionRecorder& rec
   } catch (const std::exception& error) {
     recorder.session().broke_off = fmt::format("the replay broke off: {}", error.what());
     if (loops) trajectories.placed = loops->placed();
+    whole = false;
   }
   progress.end();
   recorder.end(std::move(trajectories), Clock::now() - start);
+  return loops && whole ? save(map, *loops, recorder) : Result<void>{};
 }
 
 // A ground truth that cannot be read is told before hours are spent, not after.
@@ -119,14 +135,18 @@ Result<ReplayResult> replay_session(const ReplayOptions& options) {
   if (!folder) return tl::unexpected(folder.error());
 
   SessionRecorder recorder(*folder, describe(options, *source), options.map);
+  auto map =
+      SessionMap::open(options.maps, options.config.loop, source->frames->calibration().camera,
+                       *built_in_vocabulary(), *recorder.keyframes());
+  if (!map) return tl::unexpected(map.error());
   if (auto begun = recorder.begin(); !begun) return tl::unexpected(begun.error());
-  run(*source->frames, options, recorder);
+  const auto saved = run(*source->frames, options, *map, recorder);
   for (std::string& remark : source->remarks()) {
     recorder.session().notes.push_back(std::move(remark));
   }
   add_ground_truth(recorder.session(), options.ground_truth);
   if (auto written = recorder.write(); !written) return tl::unexpected(written.error());
-  auto failure = failure_of(recorder.session());
+  auto failure = saved ? failure_of(recorder.session()) : saved.error();
   return ReplayResult{*folder, std::move(recorder.session()), std::move(failure)};
 }
 

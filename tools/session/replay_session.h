@@ -9,6 +9,7 @@
 #include "hal/result.h"
 #include "slam/odometry.h"
 #include "tools/cloud/cloud_file.h"
+#include "tools/map/session_map.h"
 #include "tools/session/session.h"
 
 namespace sparsight {
@@ -24,6 +25,7 @@ struct ReplayOptions {
   std::optional<std::filesystem::path> ground_truth;  // else the one of the layout, if any
   bool no_loops = false;
   std::vector<CloudFormat> map = {CloudFormat::kPly};  // files of it; none: no map
+  SessionMapOptions maps;                              // to go on in, and to leave
   bool quiet = false;                                  // no progress; faults are still told
 };
 

@@ -61,7 +61,7 @@ SessionRecorder::SessionRecorder(std::filesystem::path folder, SessionDescriptio
 }
 
 Result<void> SessionRecorder::begin() {
-  if (session_.description.config.loop.enabled) {
+  if (session_.description.config.loop.enabled && !keyframes_->writes()) {
     auto file = KeyframeFile::create(folder_ / kKeyframeFile);
     if (!file) return tl::unexpected(file.error());
     keyframes_->write_to(std::move(*file));

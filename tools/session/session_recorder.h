@@ -27,9 +27,9 @@ class SessionRecorder {
                   std::vector<CloudFormat> map,
                   AtomicFile::Appears journal = AtomicFile::Appears::kWhole);
 
-  // Where a LoopCloser of this session is to keep images and clouds: in a file of the folder that
-  // is gone when the session is written. The map is then made of those.
-  std::shared_ptr<KeyframeStore> keyframes() { return keyframes_; }
+  // Where a LoopCloser of this session is to keep images and clouds, of which the map is then made:
+  // in a file that is gone when the session is written, unless another is given before begin().
+  std::shared_ptr<PagedKeyframes> keyframes() { return keyframes_; }
 
   // Marks a new folder as a session's, so that after a crash it may be replaced.
   Result<void> begin();

@@ -5,7 +5,8 @@
 
 namespace sparsight {
 
-void add_map_options(CLI::App& command, std::vector<CloudFormat>& formats) {
+void add_map_options(CLI::App& command, std::vector<CloudFormat>& formats,
+                     SessionMapOptions& maps) {
   std::map<std::string, CloudFormat> by_name;
   for (const CloudFormat format : kCloudFormats) by_name[std::string(name_of(format))] = format;
   CLI::Option* format =
@@ -18,8 +19,19 @@ void add_map_options(CLI::App& command, std::vector<CloudFormat>& formats) {
           ->default_str("ply");
   command
       .add_flag_callback(
-          "--no-map", [&formats] { formats.clear(); }, "write no map")
+          "--no-map", [&formats] { formats.clear(); }, "write no map file")
       ->excludes(format);
+  command
+      .add_option("--map", maps.earlier,
+                  "go on in the map of an earlier session: once a place of it is seen again, poses "
+                  "are in its frame")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
+  command
+      .add_option(
+          "--save-map", maps.save_to,
+          "leave a map for later sessions, with all that --map gave; may be the same folder")
+      ->type_name("DIR");
 }
 
 }  // namespace sparsight

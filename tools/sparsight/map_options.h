@@ -4,10 +4,12 @@
 #include <vector>
 
 #include "tools/cloud/cloud_file.h"
+#include "tools/map/session_map.h"
 
 namespace sparsight {
 
-// --map-format and --no-map of a command whose session has a map.
-void add_map_options(CLI::App& command, std::vector<CloudFormat>& formats);
+// Of a command whose session has a map: the files it is written to, and the maps it goes on in and
+// leaves.
+void add_map_options(CLI::App& command, std::vector<CloudFormat>& formats, SessionMapOptions& maps);
 
 }  // namespace sparsight

@@ -70,7 +70,7 @@ void add_replay(CLI::App& app, int& exit_code) {
       ->check(CLI::ExistingFile);
   command->add_flag("--quiet", options->quiet, "no progress and no summary");
   command->add_flag("--no-loops", options->no_loops, "odometry alone, whatever the profile says");
-  add_map_options(*command, options->map);
+  add_map_options(*command, options->map, options->maps);
   command->callback([options, &exit_code] { exit_code = replay(*options); });
 }
 

@@ -167,7 +167,7 @@ void add_run(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_flag("--no-recording", arguments->no_recording,
                     "do not record what the rig delivers");
-  add_map_options(*command, arguments->options.map);
+  add_map_options(*command, arguments->options.map, arguments->options.maps);
   command->callback([arguments, &exit_code] { exit_code = run_rig(*arguments); });
 }
 

@@ -145,7 +145,7 @@ TEST_F(RecordedSession, LoopsLeaveBothPathsAndTheMapOfTheCorrectedOne) {
   recorder.session().loops.push_back({.candidate = 0, .current = 0});
   recorder.end({.odometry = {{0, frame.exposure, Eigen::Isometry3d::Identity()}},
                 .corrected = {{0, frame.exposure, corrected}},
-                .placed = {{0, stored, {}, corrected}}},
+                .placed = {{.stored = stored, .T_world_camera = corrected}}},
                std::chrono::seconds(1));
   ASSERT_TRUE(recorder.write());
   EXPECT_EQ(read_trajectory(folder_ / "trajectory.tum").value().poses[0].translation().x(), 40.0);
