@@ -112,7 +112,7 @@ void LoopCloser::State::remember(const RetiredKeyframe& keyframe, const CameraIn
 // the next, and tracking had not lost its way between them. What does not continue begins a
 // sub-map.
 bool LoopCloser::State::continues(const RetiredKeyframe& keyframe) const {
-  return to_next && to_next->sequence == keyframe.sequence && !keyframe.predicted;
+  return to_next && to_next->sequence == keyframe.sequence && !keyframe.begins_submap;
 }
 
 void LoopCloser::State::put_in_graph(const RetiredKeyframe& keyframe, bool begins_submap) {
@@ -239,6 +239,18 @@ bool LoopCloser::finish() {
   bool moved = false;
   while (s.asked < s.places.size()) moved = s.ask(s.asked++) || moved;
   return moved;
+}
+
+Eigen::Isometry3d LoopCloser::T_map_odometry() const {
+  const State& s = *state_;
+  if (s.found.empty()) return Eigen::Isometry3d::Identity();
+  return renormalized(s.graph.graph().T_world_node.back() *
+                      s.places.back().T_odometry_camera.inverse());
+}
+
+bool LoopCloser::placed() const {
+  const State& s = *state_;
+  return s.places.empty() || s.graph.connected(0, s.places.size() - 1);
 }
 
 std::map<std::uint64_t, Eigen::Isometry3d> LoopCloser::poses() const {

@@ -57,6 +57,12 @@ class LoopCloser {
   // At the end: asks about the last ones.
   bool finish();
 
+  // The odometry's frame in the map's, as the newest keyframe has it. Before any loop the identity;
+  // every loop may make it jump.
+  Eigen::Isometry3d T_map_odometry() const;
+  // Whether the newest keyframe is connected with the first: if not, where its sub-map stands is a
+  // guess.
+  bool placed() const;
   // The poses of all keyframes so far, by their sequence.
   std::map<std::uint64_t, Eigen::Isometry3d> poses() const;
   // In their order; all that was seen is in them.

@@ -193,7 +193,7 @@ class Jump : public ::testing::Test {
       RetiredKeyframe keyframe = made_walk().keyframe(i);
       keyframe.T_world_camera = odometry(i);
       if (lost && i + 1 == MadeWalk::kViews) keyframe.successor.reset();
-      keyframe.predicted = lost && i == MadeWalk::kViews;
+      keyframe.begins_submap = lost && i == MadeWalk::kViews;
       closer_.add(keyframe, made_walk().camera().intrinsics());
     }
     closer_.finish();
