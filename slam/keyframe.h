@@ -23,7 +23,7 @@ struct CloudPoint {
 
 // A frame in the window (Sec. IV-B2): its image, its depth, its pose.
 struct Keyframe : TrackingTarget {
-  bool predicted = false;  // tracking had failed: where it stands was not measured
+  bool begins_submap = false;  // tracking was lost: where it stands is a guess
   // Where the marginalisation prior was linearised; set once, when the prior first touches it.
   std::optional<Eigen::Isometry3d> T_world_camera_first;
 

@@ -6,6 +6,7 @@
 
 #include "slam/points/camera_returns.h"
 #include "slam/points/visibility.h"
+#include "slam/tracking/patch_texture.h"
 #include "slam/tracking/strangers.h"
 
 namespace sparsight {
@@ -60,6 +61,15 @@ bool WindowStage::accept(const SynchronizedFrame& frame, const TrackedFrame& tra
   considered_ = frame.sequence;
   std::unique_ptr<Keyframe> keyframe = make_keyframe(frame, tracked);
   if (static_cast<int>(keyframe->points.size()) < config_.tracker.min_points) return false;
+  // One that was tracked has shown that it has texture; one in the dark must not be the only one.
+  const bool alone = keyframe->begins_submap || window_.size() == 0;
+  if (alone && textured_patches(keyframe->patches.front()) < config_.tracker.min_points) {
+    return false;
+  }
+  if (keyframe->begins_submap) {
+    finish();
+    ++submap_;
+  }
   window_.add(std::move(keyframe));
   return true;
 }
@@ -99,7 +109,7 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
   keyframe->sequence = frame.sequence;
   keyframe->exposure = frame.exposure;
   keyframe->T_world_camera = pose_of(tracked);
-  keyframe->predicted = tracked.outcome.status == FrameOutcome::Status::kPredicted;
+  keyframe->begins_submap = tracked.outcome.status == FrameOutcome::Status::kLost;
   keyframe->pyramid = tracked.pyramid;
   keyframe->points = select_points(returns, frame.grey, camera_, config_.points);
   keyframe->mean_inverse_depth = mean_inverse_depth(keyframe->points);
@@ -108,7 +118,7 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
                                              config_.photometry.gradient_weight_constant));
   }
   if (config_.photometry.weigh_down_strangers && window_.size() > 0 &&
-      tracked.outcome.tracking.ok() &&
+      tracked.outcome.status == FrameOutcome::Status::kTracked &&
       window_.latest().sequence == tracked.outcome.keyframe_sequence) {
     weigh_down_strangers(keyframe->patches, window_.latest().pyramid.level(0), camera_,
                          tracked.outcome.tracking.T_keyframe_camera);
@@ -125,7 +135,7 @@ void WindowStage::retire_oldest() {
                          .T_world_camera = keyframe.T_world_camera,
                          .cloud_camera = std::move(keyframe.cloud_camera),
                          .pyramid = std::move(keyframe.pyramid),
-                         .predicted = keyframe.predicted};
+                         .begins_submap = keyframe.begins_submap};
   if (window_.size() > 0) {
     const Keyframe& successor = window_.oldest();
     result.successor = {
@@ -141,6 +151,7 @@ void WindowStage::describe(TrackingReference& out) {
   out.considered = considered_;
   out.camera = camera_;
   out.keyframes = window_.size();
+  out.submap = submap_;
   if (window_.size() > 0) out.keyframe = window_.latest();
 }
 

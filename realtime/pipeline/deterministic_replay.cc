@@ -46,7 +46,7 @@ ReplayTrajectories replay_deterministic(FrameSource& source, Odometry& odometry,
   ReplayTrajectories result{.odometry = trajectory.poses()};
   if (loops != nullptr) {
     loops->finish();
-    result.placed = loops->placed();
+    result.placed = loops->placed_keyframes();
     result.corrected = trajectory.poses(loops->poses());
   }
   return result;

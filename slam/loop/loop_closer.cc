@@ -120,7 +120,7 @@ void LoopCloser::State::remember(const RetiredKeyframe& keyframe, const CameraIn
 // the next, and tracking had not lost its way between them. What does not continue begins a
 // sub-map.
 bool LoopCloser::State::continues(const RetiredKeyframe& keyframe) const {
-  return to_next && to_next->sequence == keyframe.sequence && !keyframe.predicted;
+  return to_next && to_next->sequence == keyframe.sequence && !keyframe.begins_submap;
 }
 
 void LoopCloser::State::put_in_graph(const RetiredKeyframe& keyframe, bool begins_submap) {
@@ -300,7 +300,19 @@ KnownPlaces LoopCloser::known() const {
   return known;
 }
 
-std::vector<PlacedKeyframe> LoopCloser::placed() const {
+Eigen::Isometry3d LoopCloser::T_map_odometry() const {
+  const State& s = *state_;
+  if (s.found.empty()) return Eigen::Isometry3d::Identity();
+  return renormalized(s.graph.graph().T_world_node.back() *
+                      s.places.back().T_odometry_camera.inverse());
+}
+
+bool LoopCloser::placed() const {
+  const State& s = *state_;
+  return s.places.empty() || s.graph.connected(0, s.places.size() - 1);
+}
+
+std::vector<PlacedKeyframe> LoopCloser::placed_keyframes() const {
   const State& s = *state_;
   const bool as_odometry = s.found.empty();  // to the last digit
   std::vector<PlacedKeyframe> result;
@@ -323,7 +335,7 @@ std::vector<PlacedKeyframe> LoopCloser::placed() const {
 
 std::map<std::uint64_t, Eigen::Isometry3d> LoopCloser::poses() const {
   std::map<std::uint64_t, Eigen::Isometry3d> result;
-  for (const PlacedKeyframe& keyframe : placed()) {
+  for (const PlacedKeyframe& keyframe : placed_keyframes()) {
     if (!keyframe.in_earlier_map) result[keyframe.sequence] = keyframe.T_world_camera;
   }
   return result;

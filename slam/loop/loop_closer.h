@@ -78,11 +78,17 @@ class LoopCloser {
   // At the end: asks about the last ones.
   bool finish();
 
+  // The odometry's frame in the map's, as the newest keyframe has it. Before any loop the identity;
+  // every loop may make it jump.
+  Eigen::Isometry3d T_map_odometry() const;
+  // Whether the newest keyframe is connected with the first: if not, where its sub-map stands is a
+  // guess.
+  bool placed() const;
   // The poses of this session's keyframes so far, by their sequence.
   std::map<std::uint64_t, Eigen::Isometry3d> poses() const;
   // The same with what else the map needs to know of them, in the order they were added; first
   // those of the earlier map that loops connect this session with.
-  std::vector<PlacedKeyframe> placed() const;
+  std::vector<PlacedKeyframe> placed_keyframes() const;
   // This session's, in their order; all that it saw is in them.
   std::vector<Submap> submaps() const;
   // Loops that stand, in the order they were found.

@@ -20,6 +20,8 @@
 #include "tools/session/process_load.h"
 #include "tools/session/session_recorder.h"
 #include "tools/session/session_summary.h"
+#include "tools/session/submap_news.h"
+#include "tools/session/tracking_news.h"
 
 namespace sparsight {
 namespace {
@@ -122,8 +124,12 @@ class LiveRun {
     LiveOutputs outputs;
     if (recorder_) {
       outputs.on_event = [this](RigEvent&& event) { recorder_->record(std::move(event)); };
-      outputs.on_preview = [this](const LivePose& pose) {
-        recorder_->record(RecordedPose{pose.exposure, pose.T_world_camera});
+      outputs.on_preview = [this](const LivePreview& preview) {
+        const LivePose& pose = preview.pose;
+        if (pose.status == FrameOutcome::Status::kLost) return;
+        RecordedPose recorded{pose.exposure, pose.T_world_camera};
+        if (preview.placed) recorded.T_map_world = preview.T_map_world;
+        recorder_->record(recorded);
       };
     }
     // A fault is told when its kind first comes, and counted from then on.
@@ -132,12 +138,27 @@ class LiveRun {
         say(fmt::format("frame {}: {} (more of this kind are only counted)", record.sequence,
                         fault.message));
       }
+      if (const auto news = tracking_news_.of(record)) say(*news);
     };
     outputs.on_keyframe = [this](RetiredKeyframe&& keyframe, const KeyframeEffort& effort) {
-      if (loops_) loops_->add(keyframe, given_, effort.search_loops);
-      session_.add(keyframe);
+      return take(keyframe, effort);
     };
     return outputs;
+  }
+
+  // On the background thread.
+  MapPlace take(const RetiredKeyframe& keyframe, const KeyframeEffort& effort) {
+    session_.add(keyframe);
+    if (keyframe.begins_submap) ++place_.submap;
+    if (!loops_) {
+      place_.placed = place_.submap == 0;
+      return place_;
+    }
+    loops_->add(keyframe, given_, effort.search_loops);
+    place_.T_map_world = loops_->T_map_odometry();
+    place_.placed = loops_->placed();
+    for (const std::string& news : submap_news_.of(*loops_)) say(news);
+    return place_;
   }
 
   void say(const std::string& line) const {
@@ -214,10 +235,11 @@ class LiveRun {
     ReplayTrajectories result{.odometry = pipeline_.trajectory()};
     if (loops_) {
       loops_->finish();
-      result.placed = loops_->placed();
+      result.placed = loops_->placed_keyframes();
       result.corrected = pipeline_.trajectory(loops_->poses());
       session_.session().loops = loops_->loops();
       session_.session().loop_statistics = loops_->statistics();
+      session_.session().submaps = loops_->submaps();
     }
     return result;
   }
@@ -269,7 +291,10 @@ class LiveRun {
   std::unique_ptr<Recorder> recorder_;
   SessionRecorder session_;
   CameraIntrinsics given_;
+  TrackingNews tracking_news_;         // the journal thread's
   std::unique_ptr<LoopCloser> loops_;  // the background thread's, until the pipeline has stopped
+  SubmapNews submap_news_;             // likewise
+  MapPlace place_;                     // likewise
   SessionMap map_;
   Result<void> saved_;
   LivePipeline pipeline_;  // after what its outputs use

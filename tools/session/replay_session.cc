@@ -10,6 +10,8 @@
 #include "tools/session/session_folder.h"
 #include "tools/session/session_recorder.h"
 #include "tools/session/session_summary.h"
+#include "tools/session/submap_news.h"
+#include "tools/session/tracking_news.h"
 
 namespace sparsight {
 namespace {
@@ -77,14 +79,23 @@ Result<void> run(FrameSource& source, const ReplayOptions& options, SessionMap& 
                  SessionRecorder& recorder) {
   Progress progress(stderr, Progress::style_for(stderr, options.quiet),
                     frames_to_come(source, options));
+  TrackingNews tracking_news;
   const auto on_frame = [&](const FrameRecord& record) {
     for (const Error& fault : recorder.add(record)) {
       progress.say(fmt::format("frame {}: {} (more of this kind are only counted)", record.sequence,
                                fault.message));
     }
+    if (const auto news = tracking_news.of(record)) progress.say(*news);
     progress.frame(record.exposure, name_of(record.outcome.status));
   };
-  const auto on_keyframe = [&](RetiredKeyframe&& keyframe) { recorder.add(keyframe); };
+  std::optional<LoopCloser> loops;
+  if (options.config.loop.enabled) loops.emplace(options.config, built_in_vocabulary());
+  SubmapNews submap_news;
+  const auto on_keyframe = [&](RetiredKeyframe&& keyframe) {
+    recorder.add(keyframe);
+    if (!loops) return;
+    for (const std::string& news : submap_news.of(*loops)) progress.say(news);
+  };
 
   const InterruptRequest interrupt;
   InterruptibleSource interruptible(source, interrupt);
@@ -104,12 +115,13 @@ Result<void> run(FrameSource& source, const ReplayOptions& options, SessionMap& 
     if (loops) {
       recorder.session().loops = loops->loops();
       recorder.session().loop_statistics = loops->statistics();
+      recorder.session().submaps = loops->submaps();
     }
     tell_camera_found(source.calibration().camera, odometry.camera(), recorder.session());
     if (interrupt.pending()) recorder.session().broke_off = "stopped on request";
   } catch (const std::exception& error) {
     recorder.session().broke_off = fmt::format("the replay broke off: {}", error.what());
-    if (loops) trajectories.placed = loops->placed();
+    if (loops) trajectories.placed = loops->placed_keyframes();
     whole = false;
   }
   progress.end();

@@ -22,9 +22,11 @@ std::string kitti_text(const std::vector<TrajectoryPose>& trajectory) {
   return format_kitti(poses);
 }
 
+// Frames that were lost have no line; in KITTI's format, which has no times, all have one.
 Trajectory with_its_times(const std::vector<TrajectoryPose>& trajectory) {
   Trajectory result;
   for (const TrajectoryPose& pose : trajectory) {
+    if (!pose.known) continue;
     result.poses.push_back(pose.T_world_camera);
     result.times.push_back(pose.exposure);
   }
@@ -35,7 +37,8 @@ std::vector<TrajectoryPose> poses_as_tracked(const std::vector<FrameFigures>& fr
   std::vector<TrajectoryPose> trajectory;
   trajectory.reserve(frames.size());
   for (const FrameFigures& frame : frames) {
-    trajectory.push_back({frame.sequence, frame.exposure, frame.T_world_camera});
+    trajectory.push_back({frame.sequence, frame.exposure, frame.T_world_camera,
+                          frame.status != FrameOutcome::Status::kLost});
   }
   return trajectory;
 }
@@ -74,7 +77,7 @@ std::vector<Error> SessionRecorder::add(const FrameRecord& record) {
   session_.frames.push_back(figures_of(record));
   journal_.stream() << frames_csv_line(session_.frames.back());
   journal_.flush();
-  if (poses_) {
+  if (poses_ && record.outcome.status != FrameOutcome::Status::kLost) {
     poses_->stream() << tum_line(record.exposure, record.outcome.T_world_camera);
     poses_->flush();
   }
@@ -87,6 +90,10 @@ std::vector<Error> SessionRecorder::add(const FrameRecord& record) {
 
 void SessionRecorder::add(const RetiredKeyframe& keyframe) {
   session_.keyframes.push_back(keyframe.sequence);
+  if (keyframe.begins_submap || session_.submaps.empty()) {
+    session_.submaps.push_back({.first_keyframe = keyframe.sequence, .part = keyframe.sequence});
+  }
+  ++session_.submaps.back().keyframes;
   if (!composer_ || session_.description.config.loop.enabled) return;
   composer_->add({.T_world_camera = keyframe.T_world_camera,
                   .camera = session_.description.calibration.camera,

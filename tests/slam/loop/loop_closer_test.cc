@@ -193,7 +193,7 @@ class Jump : public ::testing::Test {
       RetiredKeyframe keyframe = made_walk().keyframe(i);
       keyframe.T_world_camera = odometry(i);
       if (lost && i + 1 == MadeWalk::kViews) keyframe.successor.reset();
-      keyframe.predicted = lost && i == MadeWalk::kViews;
+      keyframe.begins_submap = lost && i == MadeWalk::kViews;
       closer_.add(keyframe, made_walk().camera().intrinsics());
     }
     closer_.finish();
@@ -295,7 +295,7 @@ TEST_F(AnotherSession, FindsItselfInTheMapOfTheFirst) {
   ASSERT_EQ(closer.submaps().size(), 1);
   EXPECT_TRUE(closer.submaps()[0].in_earlier_map);
   // The map is that of both.
-  const auto placed = closer.placed();
+  const auto placed = closer.placed_keyframes();
   ASSERT_EQ(placed.size(), 2 * MadeWalk::kViews);
   EXPECT_TRUE(placed[MadeWalk::kViews - 1].in_earlier_map);
   EXPECT_FALSE(placed[MadeWalk::kViews].in_earlier_map);
@@ -317,7 +317,7 @@ TEST_F(AnotherSession, WhereNothingIsRecognisedStaysInItsOwnFrame) {
   EXPECT_FALSE(closer.submaps()[0].in_earlier_map);
   EXPECT_TRUE(closer.poses().at(0).isApprox(
       T_world_hall_ * made_walk().keyframe(MadeWalk::kViews).T_world_camera, 1e-12));
-  EXPECT_EQ(closer.placed().size(), 1) << "two frames do not make one map";
+  EXPECT_EQ(closer.placed_keyframes().size(), 1) << "two frames do not make one map";
   EXPECT_EQ(closer.known().keyframes.size(), MadeWalk::kViews + 1) << "but nothing is lost";
 }
 
