@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "tools/loop/vocabulary_file.h"
 #include "tools/session/ground_truth.h"
 #include "tools/session/interrupt.h"
@@ -63,6 +65,21 @@ std::optional<std::size_t> frames_to_come(const FrameSource& source, const Repla
   return count ? std::min(*count, *options.max_frames) : *options.max_frames;
 }
 
+std::unique_ptr<LoopCloser> closer_of(const ReplayOptions& options, SessionMap& map,
+                                      SessionRecorder& recorder) {
+  if (!options.config.loop.enabled) return nullptr;
+  auto loops =
+      std::make_unique<LoopCloser>(options.config, built_in_vocabulary(), recorder.keyframes());
+  map.resume(*loops);
+  return loops;
+}
+
+void tell_loops(const LoopCloser& loops, Session& session) {
+  session.loops = loops.loops();
+  session.loop_statistics = loops.statistics();
+  session.submaps = loops.submaps();
+}
+
 Result<void> save(SessionMap& map, const LoopCloser& loops, SessionRecorder& recorder) {
   auto saved = map.save(loops, *built_in_vocabulary(),
                         recorder.session().description.source.string(), *recorder.keyframes());
@@ -88,8 +105,7 @@ Result<void> run(FrameSource& source, const ReplayOptions& options, SessionMap& 
     if (const auto news = tracking_news.of(record)) progress.say(*news);
     progress.frame(record.exposure, name_of(record.outcome.status));
   };
-  std::optional<LoopCloser> loops;
-  if (options.config.loop.enabled) loops.emplace(options.config, built_in_vocabulary());
+  const std::unique_ptr<LoopCloser> loops = closer_of(options, map, recorder);
   SubmapNews submap_news;
   const auto on_keyframe = [&](RetiredKeyframe&& keyframe) {
     recorder.add(keyframe);
@@ -102,21 +118,12 @@ Result<void> run(FrameSource& source, const ReplayOptions& options, SessionMap& 
   const auto start = Clock::now();
   ReplayTrajectories trajectories;
   bool whole = true;  // what was cut off in the middle of a step is no map
-  std::optional<LoopCloser> loops;
-  if (options.config.loop.enabled) {
-    loops.emplace(options.config, built_in_vocabulary(), recorder.keyframes());
-    map.resume(*loops);
-  }
   try {
     Odometry odometry(source.calibration(), options.config);
-    trajectories = replay_deterministic(interruptible, odometry, options.max_frames,
-                                        {.on_frame = on_frame, .on_keyframe = on_keyframe},
-                                        loops ? &*loops : nullptr);
-    if (loops) {
-      recorder.session().loops = loops->loops();
-      recorder.session().loop_statistics = loops->statistics();
-      recorder.session().submaps = loops->submaps();
-    }
+    trajectories =
+        replay_deterministic(interruptible, odometry, options.max_frames,
+                             {.on_frame = on_frame, .on_keyframe = on_keyframe}, loops.get());
+    if (loops) tell_loops(*loops, recorder.session());
     tell_camera_found(source.calibration().camera, odometry.camera(), recorder.session());
     if (interrupt.pending()) recorder.session().broke_off = "stopped on request";
   } catch (const std::exception& error) {
