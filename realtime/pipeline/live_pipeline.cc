@@ -32,7 +32,6 @@ constexpr std::size_t kLidarEvents = 2048;
 constexpr std::size_t kTriggerEvents = 256;
 
 constexpr std::chrono::nanoseconds kBlindAfter{500'000'000};
-constexpr std::uint64_t kLostAfter = 10;  // frames in a row
 
 ThreadSettings settings(const char* name, const LiveConfig& config, int priority) {
   ThreadSettings result{.name = name};
@@ -89,7 +88,7 @@ struct LivePipeline::Parts {
   }
   void watch();
   OverloadSigns signs();
-  LiveState state(HostTime now, const SyncState& sync) const;
+  LiveState state(const LiveStatus& status) const;
   void count_work(LiveStatus& status) const;
 
   const LiveConfig config;
@@ -197,14 +196,16 @@ OverloadSigns LivePipeline::Parts::signs() {
           .tracking = now[2] != before[2]};
 }
 
-LiveState LivePipeline::Parts::state(HostTime now, const SyncState& sync) const {
+LiveState LivePipeline::Parts::state(const LiveStatus& status) const {
   const HostTime last_ready{std::chrono::nanoseconds(shared.last_ready_ns.load())};
   if (shared.counters.frames_ready == 0) {
-    return sync.camera.frames == 0 ? LiveState::kWaiting : LiveState::kSynchronizing;
+    return status.sync.camera.frames == 0 ? LiveState::kWaiting : LiveState::kSynchronizing;
   }
-  if (now - last_ready > kBlindAfter) return LiveState::kBlind;
+  if (status.at - last_ready > kBlindAfter) return LiveState::kBlind;
   if (shared.counters.frames_tracked == 0) return LiveState::kSynchronizing;
-  return shared.counters.predicted_in_a_row >= kLostAfter ? LiveState::kLost : LiveState::kTracking;
+  const LivePose& pose = shared.pose.value();
+  if (pose.status == FrameOutcome::Status::kLost) return LiveState::kLost;
+  return in_its_place(status.map, pose.submap) ? LiveState::kTracking : LiveState::kRelocalizing;
 }
 
 void LivePipeline::Parts::count_work(LiveStatus& status) const {
@@ -212,6 +213,7 @@ void LivePipeline::Parts::count_work(LiveStatus& status) const {
   status.frames = c.frames_ready;
   status.frames_tracked = c.frames_tracked;
   status.frames_predicted = c.frames_predicted;
+  status.frames_lost = c.frames_lost;
   status.frames_dropped = c.frames_dropped;
   status.keyframes = c.keyframes;
   status.deadlines_missed = c.deadlines_missed;
@@ -240,9 +242,13 @@ LiveStatus LivePipeline::look() {
   p.shared.rung.store(p.ladder.look(status.at, p.signs()), std::memory_order_relaxed);
   status.shed = p.ladder.rung();
   p.count_work(status);
-  status.state = p.state(status.at, status.sync);
   p.shared.pose.refresh();
-  if (status.frames_tracked > 0) status.pose = p.shared.pose.value();
+  p.shared.map_for_state.refresh();
+  status.map = p.shared.map_for_state.value();
+  status.state = p.state(status);
+  if (status.frames_tracked > 0 && p.shared.pose.value().status != FrameOutcome::Status::kLost) {
+    status.pose = p.shared.pose.value();
+  }
   if (!p.first_event && status.camera.events > 0) p.first_event = status.at;
   if (!p.first_pose && p.first_event && status.frames_tracked > 0) {
     p.first_pose = status.at - *p.first_event;

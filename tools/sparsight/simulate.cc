@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/session/simulate_session.h"
@@ -31,6 +33,8 @@ struct SimulateArguments {
   bool no_pps = false;
   std::vector<double> clock_jump;
   std::vector<std::string> away;
+  std::vector<std::string> covered;
+  std::vector<std::string> carried;
   bool quiet = false;
 };
 
@@ -58,6 +62,28 @@ bool read_away(const std::string& text, SimulatedFaults& faults) {
   return true;
 }
 
+// FROM:SECONDS; `least` is that of the second.
+std::optional<std::pair<double, double>> read_pair(const std::string& text, double least) {
+  double first = 0.0;
+  double second = 0.0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf:%lf%c", &first, &second, &rest) != 2) return std::nullopt;
+  if (!(first >= 0.0 && first < 1e5 && second >= least && second < 1e5)) return std::nullopt;
+  return std::pair{first, second};
+}
+
+bool read_covered(const std::string& text, SimulatedFaults& faults) {
+  const auto times = read_pair(text, 0.0);
+  if (times) faults.covered.push_back({from_seconds(times->first), from_seconds(times->second)});
+  return times.has_value();
+}
+
+bool read_carried(const std::string& text, SimulatedFaults& faults) {
+  const auto times = read_pair(text, -1e5);
+  if (times) faults.carried.push_back({from_seconds(times->first), from_seconds(times->second)});
+  return times.has_value();
+}
+
 int usage(const std::string& problem) {
   std::fprintf(stderr, "sparsight simulate: %s\n", problem.c_str());
   return 2;
@@ -77,6 +103,16 @@ int simulate(SimulateArguments arguments) {
   for (const std::string& away : arguments.away) {
     if (!read_away(away, options.faults)) {
       return usage("--away is camera|lidar|trigger:FROM:SECONDS, as in camera:10:3, not " + away);
+    }
+  }
+  for (const std::string& covered : arguments.covered) {
+    if (!read_covered(covered, options.faults)) {
+      return usage("--cover is FROM:SECONDS, as in 10:5, not " + covered);
+    }
+  }
+  for (const std::string& carried : arguments.carried) {
+    if (!read_carried(carried, options.faults)) {
+      return usage("--carry is AT:AHEAD, as in 20:8 or 20:-8, not " + carried);
     }
   }
   if (arguments.session.output.empty() && arguments.session.frames.empty()) {
@@ -109,6 +145,15 @@ void add_faults(CLI::App& command, SimulateArguments& arguments) {
   command
       .add_option("--away", arguments.away,
                   "DEVICE:FROM:SECONDS: camera, lidar or trigger is gone for a while")
+      ->allow_extra_args(false);
+  command
+      .add_option("--cover", arguments.covered,
+                  "FROM:SECONDS: the lens is covered for a while, frames are dark")
+      ->allow_extra_args(false);
+  command
+      .add_option("--carry", arguments.carried,
+                  "AT:AHEAD: after AT seconds the rig is at once where the walk would be AHEAD "
+                  "seconds later (negative: was before)")
       ->allow_extra_args(false);
 }
 
