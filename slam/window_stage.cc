@@ -85,19 +85,24 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
   keyframe->pyramid = tracked.pyramid;
   keyframe->points = select_points(returns, frame.grey, camera_, config_.points);
   keyframe->mean_inverse_depth = mean_inverse_depth(keyframe->points);
-  for (int level = 0; level < tracked.pyramid.levels(); ++level) {
-    keyframe->patches.push_back(make_patches(tracked.pyramid, level, camera_, keyframe->points,
-                                             config_.photometry.gradient_weight_constant));
-  }
   if (config_.photometry.weigh_down_strangers && window_.size() > 0 &&
       tracked.outcome.tracking.ok() &&
       window_.latest().sequence == tracked.outcome.keyframe_sequence) {
-    weigh_down_strangers(keyframe->patches, window_.latest().pyramid.level(0), camera_,
+    weigh_down_strangers(keyframe->points, patches_of(*keyframe, 0),
+                         window_.latest().pyramid.level(0), camera_,
                          tracked.outcome.tracking.T_keyframe_camera);
+  }
+  for (int level = 0; level < tracked.pyramid.levels(); ++level) {
+    keyframe->patches.push_back(patches_of(*keyframe, level));
   }
   keyframe->cloud_camera.reserve(returns.size());
   for (const CameraReturn& r : returns) keyframe->cloud_camera.push_back(colored(r, frame));
   return keyframe;
+}
+
+PatchSet WindowStage::patches_of(const Keyframe& keyframe, int level) const {
+  return make_patches(keyframe.pyramid, level, camera_, keyframe.points,
+                      config_.photometry.gradient_weight_constant);
 }
 
 void WindowStage::retire_oldest() {

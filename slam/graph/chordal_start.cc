@@ -2,8 +2,9 @@
 
 #include <Eigen/SVD>
 #include <Eigen/SparseCholesky>
-#include <numeric>
 #include <utility>
+
+#include "slam/graph/connected_parts.h"
 
 namespace sparsight {
 namespace {
@@ -22,22 +23,6 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& M) {
 std::pair<double, double> weights_of(const PoseEdge& edge) {
   return {edge.information.topLeftCorner<3, 3>().trace() / 3.0,
           edge.information.bottomRightCorner<3, 3>().trace() / 3.0};
-}
-
-// Parts of the graph, by the smallest node of each.
-std::vector<std::size_t> first_of_part(const PoseGraph& graph) {
-  std::vector<std::size_t> first(graph.T_world_node.size());
-  std::iota(first.begin(), first.end(), std::size_t{0});
-  const auto root = [&](std::size_t node) {
-    while (first[node] != node) node = first[node] = first[first[node]];
-    return node;
-  };
-  for (const PoseEdge& edge : graph.edges) {
-    const auto [low, high] = std::minmax({root(edge.from), root(edge.to)});
-    first[high] = low;
-  }
-  for (std::size_t node = 0; node < first.size(); ++node) first[node] = root(node);
-  return first;
 }
 
 Eigen::MatrixXd solve(const Triplets& entries, const Eigen::MatrixXd& right_side) {
@@ -115,7 +100,7 @@ void place(PoseGraph& graph, const std::vector<std::size_t>& first) {
 
 PoseGraph chordal_start(PoseGraph graph) {
   if (graph.T_world_node.empty()) return graph;
-  const std::vector<std::size_t> first = first_of_part(graph);
+  const std::vector<std::size_t> first = connected_parts(graph);
   relax_rotations(graph, first);
   place(graph, first);
   return graph;

@@ -10,8 +10,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <numeric>
 
+#include "slam/graph/connected_parts.h"
 #include "slam/graph/dynamic_covariance_scaling.h"
 #include "slam/graph/edge_error.h"
 
@@ -120,21 +120,12 @@ class DcsLoss : public ceres::LossFunction {
 
 // One node of every part that is connected, unless one is held already.
 std::vector<std::size_t> anchors_of(const PoseGraph& graph) {
-  std::vector<std::size_t> part(graph.T_world_node.size());
-  std::iota(part.begin(), part.end(), std::size_t{0});
-  const auto root = [&](std::size_t node) {
-    while (part[node] != node) node = part[node] = part[part[node]];
-    return node;
-  };
-  for (const PoseEdge& edge : graph.edges) {
-    const auto [low, high] = std::minmax({root(edge.from), root(edge.to)});
-    part[high] = low;
-  }
+  const std::vector<std::size_t> part = connected_parts(graph);
   std::vector<bool> is_held(part.size(), false);
-  for (const std::size_t node : graph.held) is_held[root(node)] = true;
+  for (const std::size_t node : graph.held) is_held[part[node]] = true;
   std::vector<std::size_t> anchors = graph.held;
   for (std::size_t node = 0; node < part.size(); ++node) {
-    if (root(node) == node && !is_held[node]) anchors.push_back(node);
+    if (part[node] == node && !is_held[node]) anchors.push_back(node);
   }
   return anchors;
 }

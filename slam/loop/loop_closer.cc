@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "slam/loop/integrated_depth.h"
+#include "slam/loop/join_evidence.h"
 
 namespace sparsight {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr std::size_t kMatchesPerQuery = 10;
 constexpr int kQuestionsPerKeyframe = 2;   // of those that had to wait, one a keyframe
 constexpr std::size_t kMostPoints = 3000;  // of a keyframe's cloud
-// Of a step whose tracking failed: not a tenth of a turn, not ten metres.
+// Of a step of which nothing is known: not a tenth of a turn, not ten metres.
 constexpr double kBoundRad = 0.5;
 constexpr double kBoundM = 10.0;
 
@@ -47,6 +48,7 @@ struct LoopCloser::State {
   // image. Features are found again when they are asked for.
   struct Place {
     std::uint64_t sequence = 0;
+    std::size_t submap = 0;  // the first place of its sub-map
     Eigen::Isometry3d T_odometry_camera = Eigen::Isometry3d::Identity();
     CameraIntrinsics camera;  // at the level of the image
     GreyImage image;
@@ -60,7 +62,8 @@ struct LoopCloser::State {
         vocabulary(std::move(words)),
         database(vocabulary->words()),
         filter(config.consistent_queries),
-        graph(config.dcs_phi) {}
+        graph(config.dcs_phi),
+        evidence(config.join) {}
 
   OdometryConfig odometry;
   LoopConfig config;
@@ -68,6 +71,7 @@ struct LoopCloser::State {
   PlaceDatabase database;
   CandidateFilter filter;
   LoopGraph graph;
+  JoinEvidence evidence;  // for sub-maps that nothing connects
   std::vector<Place> places;
   std::optional<RetiredKeyframe::Successor> to_next;  // of the last place
   std::size_t asked = 0;                              // places that were asked about
@@ -77,6 +81,12 @@ struct LoopCloser::State {
   void remember(const RetiredKeyframe& keyframe, const CameraIntrinsics& camera);
   bool ask(std::size_t index);
   bool verify(std::size_t index, std::size_t candidate);
+  bool believe(const SeenAgain& loop);
+  bool join(const SeenAgain& loop);
+  bool continues(const RetiredKeyframe& keyframe) const;
+  void put_in_graph(const RetiredKeyframe& keyframe, bool begins_submap);
+  void keep(const SeenAgain& loop);
+  std::pair<std::size_t, std::size_t> neighbourhood(std::size_t index) const;
   double similarity_with_neighbours(std::size_t index) const;
   LoopView view_of(std::size_t index) const;
 };
@@ -91,36 +101,58 @@ void LoopCloser::State::remember(const RetiredKeyframe& keyframe, const CameraIn
   const OrbFeatures features = orb_features(place.image, {.features = config.features});
   place.bag = vocabulary->bag_of(features.descriptors);
   database.add(place.bag);
-  if (places.empty()) {
-    graph.add_first(keyframe.T_world_camera);
-  } else {
-    const Eigen::Isometry3d T_last_next =
-        places.back().T_odometry_camera.inverse() * keyframe.T_world_camera;
-    const bool known = to_next && to_next->sequence == keyframe.sequence && !keyframe.predicted;
-    graph.add_next(T_last_next, believable(known ? to_next->information : Matrix6d::Zero(),
-                                           T_last_next.translation().norm(), config));
-  }
+  place.submap = continues(keyframe) ? places.back().submap : places.size();
+  put_in_graph(keyframe, place.submap == places.size());
   to_next = keyframe.successor;
   places.push_back(std::move(place));
   ++statistics.keyframes;
 }
 
-double LoopCloser::State::similarity_with_neighbours(std::size_t index) const {
+// Whether odometry measured where it stands relative to the keyframe before: if that names it as
+// the next, and tracking had not lost its way between them. What does not continue begins a
+// sub-map.
+bool LoopCloser::State::continues(const RetiredKeyframe& keyframe) const {
+  return to_next && to_next->sequence == keyframe.sequence && !keyframe.predicted;
+}
+
+void LoopCloser::State::put_in_graph(const RetiredKeyframe& keyframe, bool begins_submap) {
+  if (places.empty()) {
+    graph.begin_submap(keyframe.T_world_camera);
+    return;
+  }
+  const Eigen::Isometry3d T_last_next =
+      places.back().T_odometry_camera.inverse() * keyframe.T_world_camera;
+  if (begins_submap) {  // by the odometry's guess, until something better is known
+    graph.begin_submap(renormalized(graph.graph().T_world_node.back() * T_last_next));
+    return;
+  }
+  graph.add_next(T_last_next,
+                 believable(to_next->information, T_last_next.translation().norm(), config));
+}
+
+// The places on either side that odometry connects it with: from the first to the last.
+std::pair<std::size_t, std::size_t> LoopCloser::State::neighbourhood(std::size_t index) const {
   const auto reach = static_cast<std::size_t>(config.neighbours);
+  const std::size_t first = std::max(places[index].submap, index - std::min(index, reach));
+  std::size_t last = std::min(index + reach, places.size() - 1);
+  while (places[last].submap != places[index].submap) --last;
+  return {first, last};
+}
+
+double LoopCloser::State::similarity_with_neighbours(std::size_t index) const {
   double least = 1.0;
-  for (std::size_t other = index - std::min(index, reach);
-       other <= std::min(index + reach, places.size() - 1); ++other) {
+  const auto [first, last] = neighbourhood(index);
+  for (std::size_t other = first; other <= last; ++other) {
     if (other != index) least = std::min(least, similarity(places[index].bag, places[other].bag));
   }
   return least;
 }
 
 LoopView LoopCloser::State::view_of(std::size_t index) const {
-  const auto reach = static_cast<std::size_t>(config.neighbours);
   const Place& place = places[index];
   std::vector<NearbyCloud> clouds;
-  for (std::size_t other = index - std::min(index, reach);
-       other <= std::min(index + reach, places.size() - 1); ++other) {
+  const auto [first, last] = neighbourhood(index);
+  for (std::size_t other = first; other <= last; ++other) {
     clouds.push_back({place.T_odometry_camera.inverse() * places[other].T_odometry_camera,
                       places[other].cloud_camera});
   }
@@ -136,18 +168,44 @@ bool LoopCloser::State::verify(std::size_t index, std::size_t candidate) {
   const LoopCheck check = verifier.check(view_of(index), view_of(candidate));
   ++statistics.verdicts[check.verdict];
   if (check.verdict != LoopCheck::Verdict::kAccepted) return false;
-  if (!graph.add_loop(index, candidate, check.T_current_candidate, check.information)) {
+  const SeenAgain loop{.current = index, .candidate = candidate, .check = check};
+  return graph.connected(index, candidate) ? believe(loop) : join(loop);
+}
+
+// Between keyframes that are connected already.
+bool LoopCloser::State::believe(const SeenAgain& loop) {
+  if (!graph.add_loop(loop.current, loop.candidate, loop.check.T_current_candidate,
+                      loop.check.information)) {
     ++statistics.contradicted;
     return false;
   }
-  found.push_back(
-      {.candidate = places[candidate].sequence, .current = places[index].sequence, .check = check});
+  keep(loop);
   return true;
+}
+
+// Between sub-maps that nothing connects.
+bool LoopCloser::State::join(const SeenAgain& loop) {
+  const std::vector<SeenAgain> agreeing = evidence.add(loop, graph);
+  if (agreeing.empty()) return false;
+  std::vector<PoseEdge> edges;
+  for (const SeenAgain& one : agreeing) edges.push_back(one.edge());
+  if (!graph.join(edges)) return false;
+  ++statistics.submaps_joined;
+  for (const SeenAgain& one : agreeing) keep(one);
+  evidence.drop_connected(graph);
+  return true;
+}
+
+void LoopCloser::State::keep(const SeenAgain& loop) {
+  found.push_back({.candidate = places[loop.candidate].sequence,
+                   .current = places[loop.current].sequence,
+                   .check = loop.check});
 }
 
 bool LoopCloser::State::ask(std::size_t index) {
   const auto recent = static_cast<std::size_t>(config.recent_keyframes);
-  const std::size_t end = index > recent ? index - recent : 0;
+  // However recent: no odometry leads to the sub-maps before.
+  const std::size_t end = std::max(places[index].submap, index - std::min(index, recent));
   const std::vector<PlaceMatch> matches =
       database.query(places[index].bag, end, similarity_with_neighbours(index), kMatchesPerQuery);
   if (!matches.empty()) ++statistics.queries;
@@ -190,6 +248,18 @@ std::map<std::uint64_t, Eigen::Isometry3d> LoopCloser::poses() const {
   for (std::size_t i = 0; i < s.places.size(); ++i) {
     result[s.places[i].sequence] =
         as_odometry ? s.places[i].T_odometry_camera : s.graph.graph().T_world_node[i];
+  }
+  return result;
+}
+
+std::vector<Submap> LoopCloser::submaps() const {
+  const State& s = *state_;
+  std::vector<Submap> result;
+  for (std::size_t i = 0; i < s.places.size(); ++i) {
+    if (s.places[i].submap == i) result.push_back({.first_keyframe = s.places[i].sequence});
+    ++result.back().keyframes;
+    const std::size_t oldest = s.graph.part_of(i);
+    result.back().part = s.places[s.places[oldest].submap].sequence;
   }
   return result;
 }

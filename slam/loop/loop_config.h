@@ -15,6 +15,21 @@ struct LoopVerificationConfig {
   int min_points = 100;          // visible patches
 };
 
+// When loops join two sub-maps that nothing connected: there is no odometry between them that could
+// contradict a look-alike, so that sight has to be surer, and more than one view say the same.
+struct SubmapJoinConfig {
+  int min_loops = 2;  // that agree; and so many more than those that say otherwise
+  // Two of them are of views so far apart, in metres or in degrees: the same door seen twice is one
+  // piece of evidence.
+  double min_apart_m = 1.0;
+  double min_apart_deg = 30.0;
+  double max_disagreement_m = 0.1;  // between two loops, and a share of the way between them
+  double max_disagreement_share = 0.02;
+  double max_disagreement_deg = 1.0;
+  int min_pose_inliers = 30;  // of each loop, as in LoopVerificationConfig
+  double min_found_share = 0.7;
+};
+
 // Loop closure, Sec. IV-E.
 struct LoopConfig {
   bool enabled = true;
@@ -31,6 +46,7 @@ struct LoopConfig {
   double odometry_floor_m = 0.005;
   double odometry_floor_share = 0.01;  // of the step's length
   LoopVerificationConfig verification;
+  SubmapJoinConfig join;
 };
 
 }  // namespace sparsight

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
+#include "slam/graph/connected_parts.h"
 #include "slam/graph/edge_error.h"
 
 namespace sparsight {
@@ -18,9 +20,25 @@ std::size_t worst_of(const PoseGraph& graph, const std::vector<std::size_t>& loo
       loops, {}, [&](std::size_t edge) { return edge_chi2(graph, graph.edges[edge]); });
 }
 
+// Moves the part with the younger first node to where the loop has it in the other.
+void move_onto_other(PoseGraph& graph, const std::vector<std::size_t>& part, const PoseEdge& loop) {
+  const Eigen::Isometry3d T_world_from = graph.T_world_node[loop.from];
+  const Eigen::Isometry3d T_world_to = graph.T_world_node[loop.to];
+  const bool from_moves = part[loop.from] > part[loop.to];
+  const Eigen::Isometry3d T_after_before =
+      from_moves ? T_world_to * loop.T_from_to.inverse() * T_world_from.inverse()
+                 : T_world_from * loop.T_from_to * T_world_to.inverse();
+  const std::size_t moving = part[from_moves ? loop.from : loop.to];
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    if (part[i] != moving) continue;
+    graph.T_world_node[i] = renormalized(T_after_before * graph.T_world_node[i]);
+  }
+}
+
 }  // namespace
 
-void LoopGraph::add_first(const Eigen::Isometry3d& T_world_keyframe) {
+void LoopGraph::begin_submap(const Eigen::Isometry3d& T_world_keyframe) {
+  part_.push_back(graph_.T_world_node.size());
   graph_.T_world_node.push_back(T_world_keyframe);
 }
 
@@ -29,6 +47,7 @@ void LoopGraph::add_next(const Eigen::Isometry3d& T_last_next, const Matrix6d& i
   graph_.T_world_node.push_back(renormalized(graph_.T_world_node[last] * T_last_next));
   graph_.edges.push_back(
       {.from = last, .to = last + 1, .T_from_to = T_last_next, .information = information});
+  part_.push_back(part_[last]);
 }
 
 bool LoopGraph::add_loop(std::size_t from, std::size_t to, const Eigen::Isometry3d& T_from_to,
@@ -50,6 +69,22 @@ bool LoopGraph::add_loop(std::size_t from, std::size_t to, const Eigen::Isometry
     last_ = optimize(warm, robust);
   }
   graph_ = std::move(warm);
+  part_ = connected_parts(graph_);  // which may be more, if loops were taken out
+  return true;
+}
+
+bool LoopGraph::join(std::span<const PoseEdge> loops) {
+  PoseGraph joined = graph_;
+  move_onto_other(joined, part_, loops.front());
+  const double before = graph_cost(joined, 0.0);
+  joined.edges.insert(joined.edges.end(), loops.begin(), loops.end());
+  last_ = optimize(joined, {.max_iterations = kIterations, .dcs_phi = 0.0});
+  const auto judged = static_cast<double>(loops.size() - 1);
+  if (loops.size() < 2 || last_.final_cost - before > judged * kHighestPrice) return false;
+  last_ = optimize(joined, {.max_iterations = kIterations, .dcs_phi = dcs_phi_});
+  if (!contradicted_loops(joined).empty()) return false;
+  graph_ = std::move(joined);
+  part_ = connected_parts(graph_);
   return true;
 }
 

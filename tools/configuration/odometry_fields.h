@@ -58,6 +58,7 @@ void visit_fields(Visitor& profile, WindowConfig& window) {
   profile.field("size", window.size, {2, 50});
   profile.field("max_iterations", window.max_iterations, {0, 1000});
   profile.field("convergence_px", window.convergence_px, {1e-6, 10.0});
+  profile.field("relinearization_px", window.relinearization_px, {0.0, 10.0});
   profile.field("min_visible_ratio", window.min_visible_ratio, kShare);
   profile.field("min_points", window.min_points, {6, 100000});
   profile.field("min_found_share", window.min_found_share, {-1.0, 1.0});
@@ -85,6 +86,18 @@ void visit_fields(Visitor& profile, LoopVerificationConfig& verification) {
 }
 
 template <typename Visitor>
+void visit_fields(Visitor& profile, SubmapJoinConfig& join) {
+  profile.field("min_loops", join.min_loops, {2, 100});
+  profile.field("min_apart_m", join.min_apart_m, {0.0, 100.0});
+  profile.field("min_apart_deg", join.min_apart_deg, {0.0, 180.0});
+  profile.field("max_disagreement_m", join.max_disagreement_m, {1e-6, 10.0});
+  profile.field("max_disagreement_share", join.max_disagreement_share, kShare);
+  profile.field("max_disagreement_deg", join.max_disagreement_deg, {1e-6, 90.0});
+  profile.field("min_pose_inliers", join.min_pose_inliers, {6, 10000});
+  profile.field("min_found_share", join.min_found_share, kShare);
+}
+
+template <typename Visitor>
 void visit_fields(Visitor& profile, LoopConfig& loop) {
   profile.field("enabled", loop.enabled);
   profile.field("image_level", loop.image_level, {0, 4});
@@ -98,6 +111,7 @@ void visit_fields(Visitor& profile, LoopConfig& loop) {
   profile.field("odometry_floor_m", loop.odometry_floor_m, {1e-6, 10.0});
   profile.field("odometry_floor_share", loop.odometry_floor_share, kShare);
   profile.table("verification", loop.verification);
+  profile.table("join", loop.join);
 }
 
 template <typename Visitor>

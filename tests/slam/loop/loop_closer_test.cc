@@ -174,25 +174,66 @@ TEST(LoopCloser, AsksLaterAboutKeyframesForWhichThereWasNoTime) {
   }
 }
 
-// Tracking is lost on the way, and what is predicted is metres off.
-std::size_t loops_across_a_jump(bool predicted) {
-  const MadeWalk& walk = made_walk();
-  LoopCloser closer(loop_settings(), shipped_vocabulary());
-  for (std::size_t i = 0; i < walk.truth.size(); ++i) {
-    RetiredKeyframe keyframe = walk.keyframe(i);
-    if (i >= MadeWalk::kViews) {
-      keyframe.T_world_camera = Eigen::Translation3d(2.0, 0.0, 3.0) * keyframe.T_world_camera;
-    }
-    keyframe.predicted = predicted && i == MadeWalk::kViews;
-    closer.add(keyframe, walk.camera().intrinsics());
+// The second half is metres off: tracking was lost on the way, or that is what was tracked.
+class Jump : public ::testing::Test {
+ protected:
+  Jump() : closer_(settings(), shipped_vocabulary()) {}
+
+  static OdometryConfig settings() {
+    OdometryConfig config = loop_settings();
+    config.loop.join.min_apart_m = 0.3;  // of a walk of two metres
+    return config;
   }
-  closer.finish();
-  return closer.loops().size();
+  static Eigen::Isometry3d odometry(std::size_t i) {
+    const Eigen::Isometry3d T = made_walk().drifted(i);
+    return i < MadeWalk::kViews ? T : Eigen::Translation3d(90.0, 0.0, 3.0) * T;
+  }
+  void walk(bool lost, std::size_t views = 2 * MadeWalk::kViews) {
+    for (std::size_t i = 0; i < views; ++i) {
+      RetiredKeyframe keyframe = made_walk().keyframe(i);
+      keyframe.T_world_camera = odometry(i);
+      if (lost && i + 1 == MadeWalk::kViews) keyframe.successor.reset();
+      keyframe.predicted = lost && i == MadeWalk::kViews;
+      closer_.add(keyframe, made_walk().camera().intrinsics());
+    }
+    closer_.finish();
+  }
+
+  LoopCloser closer_;
+};
+
+TEST_F(Jump, WhereTrackingWasLostLoopsJoinWhatComesAfterToWhatWasBefore) {
+  walk(true);
+  EXPECT_GE(closer_.loops().size(), 2);
+  EXPECT_EQ(closer_.statistics().submaps_joined, 1);
+  const std::vector<Submap> submaps = closer_.submaps();
+  ASSERT_EQ(submaps.size(), 2);
+  EXPECT_EQ(submaps[1].first_keyframe, 10 * MadeWalk::kViews);
+  EXPECT_EQ(submaps[1].keyframes, MadeWalk::kViews);
+  EXPECT_EQ(submaps[1].part, submaps[0].first_keyframe);
+  const auto poses = closer_.poses();
+  for (std::size_t i = 0; i < made_walk().truth.size(); ++i) {
+    EXPECT_LT((poses.at(10 * i).translation() - made_walk().truth[i].translation()).norm(), 0.1)
+        << i;
+  }
+  EXPECT_TRUE(poses.at(0).isApprox(made_walk().drifted(0), 1e-9)) << "the older stays";
 }
 
-TEST(LoopCloser, BelievesALoopAcrossAGapOfTrackingButNotAgainstWhatWasTracked) {
-  EXPECT_GE(loops_across_a_jump(true), 2);
-  EXPECT_EQ(loops_across_a_jump(false), 0);
+TEST_F(Jump, WhatWasTrackedIsBelievedAgainstLoops) {
+  walk(false);
+  EXPECT_EQ(closer_.loops().size(), 0);
+  EXPECT_GE(closer_.statistics().contradicted, 2);
+  EXPECT_EQ(closer_.submaps().size(), 1);
+}
+
+TEST_F(Jump, WithoutLoopsEachSubmapStandsWhereOdometryGuessed) {
+  walk(true, MadeWalk::kViews + 1);  // of a single view nothing is believed
+  EXPECT_TRUE(closer_.loops().empty());
+  const std::vector<Submap> submaps = closer_.submaps();
+  ASSERT_EQ(submaps.size(), 2);
+  EXPECT_EQ(submaps[1].part, submaps[1].first_keyframe);
+  EXPECT_EQ(closer_.poses().at(10 * MadeWalk::kViews).matrix(),
+            odometry(MadeWalk::kViews).matrix());
 }
 
 TEST(LoopCloser, WithoutALoopThePosesAreTheOdometrys) {

@@ -10,7 +10,7 @@ namespace {
 
 LoopGraph chain_of(const MadeGraph& made) {
   LoopGraph graph(12.6);
-  graph.add_first(made.truth[0]);
+  graph.begin_submap(made.truth[0]);
   for (std::size_t i = 0; i + 1 < made.truth.size(); ++i) {
     graph.add_next(made.graph.edges[i].T_from_to, made.graph.edges[i].information);
   }
