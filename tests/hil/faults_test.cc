@@ -37,8 +37,7 @@ TEST(CameraSilent, IsShownAndTrackedAcross) {
   const GuestRun run = guest_run("camera-silent");
   expect_whole_session(run);
   EXPECT_THAT(run.said, HasSubstr("camera is silent"));
-  EXPECT_TRUE(run.showed("/state", "blind"));
-  EXPECT_GT(withheld(run, "camera"), 20U);
+  EXPECT_GT(withheld(run, "camera"), 10U);
   EXPECT_EQ(run.recorded.frames.missing, withheld(run, "camera"));
   EXPECT_EQ(run.recorded.frames.foreign, 0U);
   expect_all_packets(run);
@@ -53,7 +52,8 @@ TEST(CameraUnplugged, ComesBackAndNothingElseIsLost) {
   EXPECT_THAT(run.said, HasSubstr("camera is gone"));
   EXPECT_EQ(run.last().at("camera").at("state"), "streaming");
   EXPECT_EQ(run.recorded.camera_starts, 2U);
-  EXPECT_EQ(run.recorded.frames.out, run.last().at("camera").at("events"));
+  EXPECT_GE(run.recorded.frames.out, run.last().at("camera").at("events"));
+  EXPECT_EQ(run.recorded.sequence_gaps, 0U);
   expect_all_packets(run);
   expect_all_edges(run);
   EXPECT_EQ(run.session.at("complete"), true);
@@ -68,6 +68,18 @@ TEST(LidarSilent, IsShownAndTrackedAcross) {
   EXPECT_GT(withheld(run, "lidar"), 1000U);
   EXPECT_EQ(run.recorded.packets.missing + run.recorded.positions.missing, withheld(run, "lidar"));
   EXPECT_EQ(run.recorded.packets.foreign + run.recorded.positions.foreign, 0U);
+  EXPECT_TRUE(run.recorded.frames.all_equal());
+  expect_all_edges(run);
+  EXPECT_LE(error_of(run.path).max_m, 0.05);
+}
+
+// Only the long form runs this one.
+TEST(PacketsLost, AreCountedAndTrackedAcross) {
+  const GuestRun run = guest_run("packets-lost");
+  expect_whole_session(run);
+  EXPECT_GT(run.recorded.packets.missing, 100U) << "netem was to lose one in fifty";
+  EXPECT_GT(run.recorded.packets.foreign, 50U) << "and to double one in a hundred";
+  EXPECT_GT(run.last().at("sync").at("packets_lost"), 100);
   EXPECT_TRUE(run.recorded.frames.all_equal());
   expect_all_edges(run);
   EXPECT_LE(error_of(run.path).max_m, 0.05);

@@ -94,6 +94,9 @@ play() {  # scenario, arguments of hil
   echo $? >"$out/run.status"
 }
 
+# Devices are no threads: nobody throttles them.
+echo -1 >/proc/sys/kernel/sched_rt_runtime_us
+
 make_lines
 make_camera
 make_lidar

@@ -71,7 +71,7 @@ VideoOutput::VideoOutput(VideoDevice device, const CameraFrame& like)
 VideoOutput::~VideoOutput() {
   int type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
   device_.call(VIDIOC_STREAMOFF, type);
-  for (const auto& memory : buffers_) device_.unmap(memory.data(), memory.size());
+  for (const Mapped& buffer : buffers_) device_.unmap(buffer.memory.data(), buffer.memory.size());
 }
 
 Result<void> VideoOutput::set_format() {
@@ -112,7 +112,7 @@ Result<void> VideoOutput::map_buffers() {
     }
     void* memory = device_.map(buffer.length, buffer.m.offset);
     if (!memory) return tl::unexpected(device_.error("cannot map a buffer", -ENOMEM));
-    buffers_.emplace_back(static_cast<std::uint8_t*>(memory), buffer.length);
+    buffers_.push_back({buffer.m.offset, {static_cast<std::uint8_t*>(memory), buffer.length}});
   }
   return {};
 }
@@ -125,6 +125,15 @@ int VideoOutput::free_buffer() {
   return buffer.index < buffers_.size() ? static_cast<int>(buffer.index) : -EPROTO;
 }
 
+// v4l2loopback counts modulo the buffers of the reader, who comes later and may want fewer: which
+// memory an index means is asked each time. Empty if it is none that was mapped.
+std::span<std::uint8_t> VideoOutput::memory_of(std::uint32_t index) {
+  v4l2_buffer buffer = output_buffer(index);
+  if (device_.call(VIDIOC_QUERYBUF, buffer) < 0) return {};
+  const auto mapped = std::ranges::find(buffers_, buffer.m.offset, &Mapped::offset);
+  return mapped == buffers_.end() ? std::span<std::uint8_t>() : mapped->memory;
+}
+
 int VideoOutput::write(const CameraFrame& frame, HostTime stamp) {
   if (frame.format != like_.format || frame.width != like_.width || frame.height != like_.height) {
     return -EINVAL;
@@ -132,7 +141,8 @@ int VideoOutput::write(const CameraFrame& frame, HostTime stamp) {
   const int index = free_buffer();
   if (index < 0) return index;
   v4l2_buffer buffer = output_buffer(static_cast<std::uint32_t>(index));
-  const auto memory = buffers_[static_cast<std::size_t>(index)];
+  const auto memory = memory_of(buffer.index);
+  if (memory.empty()) return -EPROTO;
   buffer.bytesused = static_cast<std::uint32_t>(copy_rows(frame, stride_bytes_, memory));
   buffer.timestamp = timeval_of(stamp);
   return device_.call(VIDIOC_QBUF, buffer);

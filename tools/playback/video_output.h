@@ -32,11 +32,16 @@ class VideoOutput {
   Result<void> set_format();
   Result<void> map_buffers();
   int free_buffer();
+  std::span<std::uint8_t> memory_of(std::uint32_t index);
 
   VideoDevice device_;
   CameraFrame like_;  // without its bytes
   int stride_bytes_ = 0;
-  std::vector<std::span<std::uint8_t>> buffers_;
+  struct Mapped {
+    std::uint32_t offset;  // by which the driver knows it
+    std::span<std::uint8_t> memory;
+  };
+  std::vector<Mapped> buffers_;
   std::size_t used_ = 0;  // the first so many buffers have been queued before
 };
 

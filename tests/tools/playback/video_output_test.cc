@@ -19,6 +19,7 @@ class FakeOutput final : public SystemCalls {
   std::uint32_t abilities = V4L2_CAP_VIDEO_OUTPUT | V4L2_CAP_STREAMING;
   std::uint32_t stride = 8;
   std::uint32_t width_instead = 0;
+  std::uint32_t reader_buffers = 2;
   std::vector<v4l2_buffer> queued;
   std::deque<std::uint32_t> done;
   std::map<std::uint32_t, std::vector<std::uint8_t>> memory;
@@ -55,7 +56,7 @@ class FakeOutput final : public SystemCalls {
         return 0;
       case VIDIOC_QUERYBUF:
         buffer->length = 2 * stride;
-        buffer->m.offset = buffer->index;
+        buffer->m.offset = buffer->index % reader_buffers;
         return 0;
       case VIDIOC_QBUF:
         queued.push_back(*buffer);
@@ -112,6 +113,19 @@ TEST(VideoOutput, UsesBuffersAgainAndSaysWhenThereIsNone) {
   video.done.push_back(1);
   EXPECT_EQ((*output)->write(small_frame(), HostTime(4s)), 0);
   EXPECT_EQ(video.queued.back().index, 1U);
+}
+
+TEST(VideoOutput, WritesWhereTheIndexPointsSinceTheReaderCame) {
+  FakeOutput video;
+  auto output = VideoOutput::open("/dev/video10", small_frame(), video);
+  ASSERT_TRUE(output) << output.error().message;
+  video.reader_buffers = 1;
+  EXPECT_EQ((*output)->write(small_frame(), HostTime(1s)), 0);
+  CameraFrame second = small_frame();
+  second.bytes[0] = 77;
+  EXPECT_EQ((*output)->write(second, HostTime(2s)), 0);
+  EXPECT_EQ(video.queued.back().index, 1U);
+  EXPECT_EQ(video.memory[0][0], 77);
 }
 
 TEST(VideoOutput, RefusesAFrameUnlikeTheFirst) {
