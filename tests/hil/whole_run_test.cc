@@ -138,8 +138,8 @@ TEST_F(WholeRun, KeepsEveryDeadlineOnceItIsUnderWay) {
   EXPECT_GT(arrival, 0.0);
   EXPECT_LE(arrival, 25.0) << "from a frame's arrival to its pose, the worst of any second";
   std::printf(
-      "edge (middle of the exposure) to pose %.1f ms, p99 %.1f ms; arrival to pose p99 "
-      "%.1f ms\n",
+      "middle of the exposure to pose: median %.1f ms, worst %.1f ms; arrival to pose: worst %.1f "
+      "ms\n",
       median, latest, arrival);
 }
 
