@@ -25,7 +25,7 @@ struct RetiredKeyframe {
   std::optional<Successor> successor;  // none for the last keyframe
   std::vector<CloudPoint> cloud_camera;
   ImagePyramid pyramid;
-  bool predicted = false;  // where it stands relative to the one before was not measured
+  bool begins_submap = false;  // where it stands relative to those before is a guess
 };
 
 }  // namespace sparsight

@@ -14,7 +14,8 @@ namespace sparsight {
 struct TrackingReference {
   TrackingTarget keyframe;
   CameraModel camera{CameraIntrinsics{}};
-  int keyframes = 0;  // in the window; 0: there is none yet to track against
+  int keyframes = 0;         // in the window; 0: there is none yet to track against
+  std::uint32_t submap = 0;  // of the keyframe; counts from 0
   // The frame last handed over as a keyframe, whether or not it was taken.
   std::optional<std::uint64_t> considered;
   std::uint64_t version = 0;  // counts what was published

@@ -7,7 +7,10 @@ namespace sparsight {
 namespace {
 
 constexpr double kErrorMemory = 0.7;  // how fast the expected error of the prediction calms down
-constexpr int kPatientFrames = 3;     // untracked frames before a new keyframe is forced
+// Untracked frames, and the time since the last tracked one, before tracking is lost.
+constexpr int kPatientFrames = 3;
+constexpr double kPatienceS = 0.25;
+constexpr double kVelocityMemoryS = 1.0;  // after so long without tracking it may be any other
 
 // Of an image relative to a later keyframe, both known relative to an earlier one.
 Brightness relative_to(const Brightness& keyframe, const Brightness& image) {
@@ -61,9 +64,21 @@ void TrackingStage::take_up(const TrackingReference& reference) {
   tracker_.set_camera(reference.camera);
   if (keyframe_ == reference.keyframe.sequence) return;
   keyframe_ = reference.keyframe.sequence;
+  if (submap_ != reference.submap) begin_submap(reference);
   motion_.rebase(reference.keyframe.exposure);
   brightness_ = relative_to(brightness_at_hand_over_, brightness_);
   untracked_ = 0;
+  T_keyframe_lost_.reset();
+  last_tracked_ = std::max(last_tracked_, reference.keyframe.exposure);
+}
+
+void TrackingStage::begin_submap(const TrackingReference& reference) {
+  submap_ = reference.submap;
+  if (to_seconds(reference.keyframe.exposure - last_tracked_) < kVelocityMemoryS) return;
+  motion_.restart(reference.keyframe.exposure);
+  brightness_ = brightness_at_hand_over_;
+  start_error_px_ = std::numeric_limits<double>::infinity();
+  found_share_ = 0.0;
 }
 
 // The usual case: a keyframe stands, the frame has an image.
@@ -73,9 +88,11 @@ FrameOutcome TrackingStage::follow(const SynchronizedFrame& frame,
   const TrackingTarget& keyframe = reference.keyframe;
   FrameOutcome result;
   result.keyframe_sequence = keyframe.sequence;
+  result.submap = reference.submap;
   const TrackingStart start{
       .T_keyframe_previous = motion_.last_in_keyframe(),
-      .T_keyframe_predicted = motion_.predict_in_keyframe(frame.exposure),
+      .T_keyframe_predicted =
+          T_keyframe_lost_.value_or(motion_.predict_in_keyframe(frame.exposure)),
       .brightness = brightness_,
       .error_px = start_error_px_,
       .found_share = found_share_,
@@ -83,29 +100,44 @@ FrameOutcome TrackingStage::follow(const SynchronizedFrame& frame,
           in_doubt_ < kPatientFrames ? motion_.seconds_since_last(frame.exposure) : std::nullopt,
       .finest_level = finest_level};
   if (!pyramid.empty()) result.tracking = tracker_.track(keyframe, pyramid, start);
-  if (result.tracking.ok()) {
+  // Of what is found after a loss nothing else speaks for it.
+  const bool found = T_keyframe_lost_ ? result.tracking.well_found() : result.tracking.ok();
+  if (found) {
     result.status = FrameOutcome::Status::kTracked;
     untracked_ = 0;
+    T_keyframe_lost_.reset();
+    last_tracked_ = frame.exposure;
     learn(frame, reference, result.tracking, start);
   } else {
-    result.status = FrameOutcome::Status::kPredicted;
     result.tracking.T_keyframe_camera = start.T_keyframe_predicted;
-    ++untracked_;
+    result.status = miss(frame, start);
   }
   in_doubt_ = result.tracking.well_found() ? 0 : in_doubt_ + 1;
   result.T_world_camera = keyframe.T_world_camera * result.tracking.T_keyframe_camera;
   result.becomes_keyframe = !frame.sweep.returns.empty() && !pyramid.empty() && !handed_over_ &&
-                            wants_keyframe(frame, reference, result.tracking);
+                            wants_keyframe(frame, reference, result);
   return result;
+}
+
+FrameOutcome::Status TrackingStage::miss(const SynchronizedFrame& frame,
+                                         const TrackingStart& start) {
+  ++untracked_;
+  if (!T_keyframe_lost_ && untracked_ >= kPatientFrames &&
+      to_seconds(frame.exposure - last_tracked_) >= kPatienceS) {
+    T_keyframe_lost_ = start.T_keyframe_predicted;
+  }
+  return T_keyframe_lost_ ? FrameOutcome::Status::kLost : FrameOutcome::Status::kPredicted;
 }
 
 bool TrackingStage::wants_keyframe(const SynchronizedFrame& frame,
                                    const TrackingReference& reference,
-                                   const TrackingResult& result) const {
-  if (!result.ok()) return untracked_ >= kPatientFrames;
+                                   const FrameOutcome& outcome) const {
+  using Status = FrameOutcome::Status;
+  if (outcome.status != Status::kTracked) return outcome.status == Status::kLost;
   const bool old =
       to_seconds(frame.exposure - reference.keyframe.exposure) >= config_.keyframes.max_age_s;
-  const bool little_in_common = result.visible_ratio < config_.keyframes.min_visible_ratio;
+  const bool little_in_common =
+      outcome.tracking.visible_ratio < config_.keyframes.min_visible_ratio;
   const bool second_of_all = reference.keyframes < 2;
   return old || little_in_common || second_of_all;
 }

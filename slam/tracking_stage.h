@@ -29,12 +29,15 @@ class TrackingStage {
 
  private:
   void take_up(const TrackingReference& reference);
+  void begin_submap(const TrackingReference& reference);
   FrameOutcome follow(const SynchronizedFrame& frame, const TrackingReference& reference,
                       const ImagePyramid& pyramid, int finest_level);
   void learn(const SynchronizedFrame& frame, const TrackingReference& reference,
              const TrackingResult& result, const TrackingStart& start);
   bool wants_keyframe(const SynchronizedFrame& frame, const TrackingReference& reference,
-                      const TrackingResult& result) const;
+                      const FrameOutcome& outcome) const;
+  // What becomes of a frame that was not found.
+  FrameOutcome::Status miss(const SynchronizedFrame& frame, const TrackingStart& start);
 
   RigCalibration calibration_;
   OdometryConfig config_;
@@ -49,7 +52,11 @@ class TrackingStage {
   double start_error_px_ = std::numeric_limits<double>::infinity();
   double found_share_ = 0.0;  // of the last tracked frame
   int untracked_ = 0;         // frames in a row
-  int in_doubt_ = 0;          // frames in a row: their velocity is no ground to refuse another
+  HostTime last_tracked_;     // exposure of the last tracked frame, or of the keyframe if later
+  // Since tracking was lost: where the camera was last thought to be, in the keyframe.
+  std::optional<Eigen::Isometry3d> T_keyframe_lost_;
+  std::uint32_t submap_ = 0;
+  int in_doubt_ = 0;  // frames in a row: their velocity is no ground to refuse another
 };
 
 }  // namespace sparsight

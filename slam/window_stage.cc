@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "slam/points/camera_returns.h"
+#include "slam/points/visibility.h"
+#include "slam/tracking/patch_texture.h"
 #include "slam/tracking/strangers.h"
 
 namespace sparsight {
@@ -21,6 +23,23 @@ CloudPoint colored(const CameraReturn& r, const SynchronizedFrame& frame) {
     point.rgb.fill(frame.grey.at(u, v));
   }
   return point;
+}
+
+// What the camera does not see would take the colour of what hides it.
+std::vector<CloudPoint> colored(const std::vector<CameraReturn>& returns, const CameraModel& camera,
+                                const SynchronizedFrame& frame) {
+  const std::vector<bool> hidden = hidden_from_camera(returns, camera);
+  std::vector<CloudPoint> cloud;
+  cloud.reserve(returns.size());
+  for (std::size_t i = 0; i < returns.size(); ++i) {
+    if (hidden[i]) {
+      cloud.push_back(
+          {.p_camera = returns[i].p_camera, .intensity = returns[i].intensity, .colored = false});
+    } else {
+      cloud.push_back(colored(returns[i], frame));
+    }
+  }
+  return cloud;
 }
 
 double mean_inverse_depth(const std::vector<SelectedPoint>& points) {
@@ -42,6 +61,15 @@ bool WindowStage::accept(const SynchronizedFrame& frame, const TrackedFrame& tra
   considered_ = frame.sequence;
   std::unique_ptr<Keyframe> keyframe = make_keyframe(frame, tracked);
   if (static_cast<int>(keyframe->points.size()) < config_.tracker.min_points) return false;
+  // One that was tracked has shown that it has texture; one in the dark must not be the only one.
+  const bool alone = keyframe->begins_submap || window_.size() == 0;
+  if (alone && textured_patches(keyframe->patches.front()) < config_.tracker.min_points) {
+    return false;
+  }
+  if (keyframe->begins_submap) {
+    finish();
+    ++submap_;
+  }
   window_.add(std::move(keyframe));
   return true;
 }
@@ -81,12 +109,12 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
   keyframe->sequence = frame.sequence;
   keyframe->exposure = frame.exposure;
   keyframe->T_world_camera = pose_of(tracked);
-  keyframe->predicted = tracked.outcome.status == FrameOutcome::Status::kPredicted;
+  keyframe->begins_submap = tracked.outcome.status == FrameOutcome::Status::kLost;
   keyframe->pyramid = tracked.pyramid;
   keyframe->points = select_points(returns, frame.grey, camera_, config_.points);
   keyframe->mean_inverse_depth = mean_inverse_depth(keyframe->points);
   if (config_.photometry.weigh_down_strangers && window_.size() > 0 &&
-      tracked.outcome.tracking.ok() &&
+      tracked.outcome.status == FrameOutcome::Status::kTracked &&
       window_.latest().sequence == tracked.outcome.keyframe_sequence) {
     weigh_down_strangers(keyframe->points, patches_of(*keyframe, 0),
                          window_.latest().pyramid.level(0), camera_,
@@ -95,8 +123,7 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
   for (int level = 0; level < tracked.pyramid.levels(); ++level) {
     keyframe->patches.push_back(patches_of(*keyframe, level));
   }
-  keyframe->cloud_camera.reserve(returns.size());
-  for (const CameraReturn& r : returns) keyframe->cloud_camera.push_back(colored(r, frame));
+  keyframe->cloud_camera = colored(returns, camera_, frame);
   return keyframe;
 }
 
@@ -113,7 +140,7 @@ void WindowStage::retire_oldest() {
                          .T_world_camera = keyframe.T_world_camera,
                          .cloud_camera = std::move(keyframe.cloud_camera),
                          .pyramid = std::move(keyframe.pyramid),
-                         .predicted = keyframe.predicted};
+                         .begins_submap = keyframe.begins_submap};
   if (window_.size() > 0) {
     const Keyframe& successor = window_.oldest();
     result.successor = {
@@ -129,6 +156,7 @@ void WindowStage::describe(TrackingReference& out) {
   out.considered = considered_;
   out.camera = camera_;
   out.keyframes = window_.size();
+  out.submap = submap_;
   if (window_.size() > 0) out.keyframe = window_.latest();
 }
 

@@ -21,6 +21,8 @@ class WindowStage {
   WindowStage(const RigCalibration& calibration, const OdometryConfig& config);
 
   // Makes the frame a keyframe, posed as it was tracked. False if it has too few points to be one.
+  // With a frame that was lost a sub-map begins: nothing ties it to the keyframes before, which all
+  // leave.
   bool accept(const SynchronizedFrame& frame, const TrackedFrame& tracked);
   // Optimises, learns, and marginalises the oldest keyframe of a full window. most_iterations: in
   // want of time, fewer than configured.
@@ -32,7 +34,7 @@ class WindowStage {
   const CameraIntrinsics& camera() const { return camera_.intrinsics(); }
   // Keyframes that left the window since the last call, oldest first.
   std::vector<RetiredKeyframe> take_retired();
-  // Empties the window at the end of a run: all remaining keyframes leave.
+  // Empties the window, at the end of a run or of a sub-map: all remaining keyframes leave.
   void finish();
 
  private:
@@ -49,6 +51,7 @@ class WindowStage {
   SelfCalibration self_calibration_;
   std::optional<std::uint64_t> considered_;
   std::uint64_t version_ = 0;
+  std::uint32_t submap_ = 0;
   std::vector<RetiredKeyframe> retired_;
 };
 

@@ -14,10 +14,10 @@ void write_isometry(const Eigen::Isometry3d& T, CdrWriter& writer) {
 
 }  // namespace
 
-void append_pose(const RecordedPose& pose, std::vector<std::uint8_t>& out) {
+void append_pose(const StampedPose& pose, std::vector<std::uint8_t>& out) {
   CdrWriter writer(out);
-  write_header({pose.time, kWorldFrame}, writer);
-  write_isometry(pose.T_world_camera, writer);
+  write_header({pose.time, pose.frame}, writer);
+  write_isometry(pose.T_frame_camera, writer);
 }
 
 void append_transform(const NamedTransform& transform, std::vector<std::uint8_t>& out) {

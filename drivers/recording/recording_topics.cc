@@ -21,6 +21,7 @@ constexpr std::array<TopicDescription, kRecordingTopics> kTopics{{
     {RecordingTopic::kDeviceStates, "/devices", message_type::kDeviceState, true},
     {RecordingTopic::kSyncStates, "/sync/state", message_type::kSyncState},
     {RecordingTopic::kPoses, "/pose", message_type::kPoseStamped},
+    {RecordingTopic::kMapPoses, "/map_pose", message_type::kPoseStamped},
     {RecordingTopic::kTransforms, "/tf", message_type::kTransforms},
     {RecordingTopic::kStaticTransforms, "/tf_static", message_type::kTransforms, true},
 }};

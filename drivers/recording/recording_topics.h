@@ -19,7 +19,8 @@ enum class RecordingTopic : std::uint8_t {
   kEdges,
   kDeviceStates,
   kSyncStates,
-  kPoses,
+  kPoses,     // in the odometry's frame
+  kMapPoses,  // in the map's
   kTransforms,
   kStaticTransforms,
 };
@@ -31,7 +32,7 @@ struct TopicDescription {
   bool latched = false;  // late subscribers are given it too: ROS's "transient local"
 };
 
-inline constexpr std::size_t kRecordingTopics = 12;
+inline constexpr std::size_t kRecordingTopics = 13;
 const TopicDescription& description_of(RecordingTopic topic);
 // The topic of this name, if it has the type it has with us.
 std::optional<RecordingTopic> recording_topic(std::string_view name, std::string_view type);

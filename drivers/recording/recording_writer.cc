@@ -137,10 +137,24 @@ void RecordingWriter::write_static_transforms() {
 }
 
 Result<void> RecordingWriter::write(const RecordedPose& pose) {
-  message(RecordingTopic::kPoses, pose.time, [&](Buffer& out) { append_pose(pose, out); });
-  message(RecordingTopic::kTransforms, pose.time, [&](Buffer& out) {
-    append_transform({pose.time, kWorldFrame, kCameraFrame, pose.T_world_camera}, out);
-  });
+  const auto say = [&](RecordingTopic topic, std::string_view parent,
+                       const Eigen::Isometry3d& T_camera) {
+    message(topic, pose.time, [&](Buffer& out) {
+      append_pose({pose.time, parent, T_camera}, out);
+    });
+  };
+  const auto tie = [&](std::string_view parent, std::string_view child,
+                       const Eigen::Isometry3d& T) {
+    message(RecordingTopic::kTransforms, pose.time, [&](Buffer& out) {
+      append_transform({pose.time, parent, child, T}, out);
+    });
+  };
+  say(RecordingTopic::kPoses, kOdometryFrame, pose.T_world_camera);
+  tie(kOdometryFrame, kCameraFrame, pose.T_world_camera);
+  if (pose.T_map_world) {
+    say(RecordingTopic::kMapPoses, kMapFrame, *pose.T_map_world * pose.T_world_camera);
+    tie(kMapFrame, kOdometryFrame, *pose.T_map_world);
+  }
   return outcome(mcap_.failure());
 }
 

@@ -60,7 +60,7 @@ class RecordingWriter {
                                                         const McapWriterOptions& options = {});
 
   Result<void> write(const RigEvent& event);
-  Result<void> write(const RecordedPose& pose);  // as /pose and /tf
+  Result<void> write(const RecordedPose& pose);  // as /pose, /map_pose and /tf
   Result<void> write(const RecordedSyncState& state);
   Result<void> flush();
   // Completes the file with its index. Without it (a crash), recover_recording() does it later.

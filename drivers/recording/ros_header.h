@@ -20,7 +20,9 @@ void write_header(const RosHeader& header, CdrWriter& writer);
 RosHeader read_header(CdrReader& reader);
 
 // Frames as ROS tools name them; "velodyne" is what the sensor's ROS driver calls its own.
-inline constexpr std::string_view kWorldFrame = "world";
+// As REP-105 names them: docs/frames.md.
+inline constexpr std::string_view kMapFrame = "map";
+inline constexpr std::string_view kOdometryFrame = "odom";
 inline constexpr std::string_view kCameraFrame = "camera";
 inline constexpr std::string_view kLidarFrame = "velodyne";
 

@@ -31,6 +31,12 @@ bool FaultPlan::loses_packet(std::uint64_t number) const {
   return Random(seed_, 0x9ac4e7, number).chance(faults_.lost_packets);
 }
 
+bool FaultPlan::covered(Elapsed at) const {
+  return std::ranges::any_of(faults_.covered, [&](const SimulatedFaults::Covered& covered) {
+    return at >= covered.from && at < covered.from + covered.lasting;
+  });
+}
+
 Elapsed FaultPlan::clock_jump(Elapsed at) const {
   const auto& jump = faults_.lidar_clock_jump;
   return jump && at >= jump->at ? jump->by : Elapsed{0};

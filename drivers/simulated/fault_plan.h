@@ -22,6 +22,7 @@ class FaultPlan {
   bool loses_frame(std::uint64_t number) const;
   bool loses_packet(std::uint64_t number) const;
   Elapsed clock_jump(Elapsed at) const;
+  bool covered(Elapsed at) const;
   const SimulatedFaults& faults() const { return faults_; }
 
  private:

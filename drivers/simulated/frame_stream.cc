@@ -35,6 +35,12 @@ void FrameStream::plan() {
 
 std::vector<std::uint8_t> FrameStream::look(std::uint64_t number) const {
   const FrameTimes times = context_.clock.frame(number);
+  if (context_.faults.covered(times.middle)) {
+    const auto& camera = context_.calibration.camera;
+    return imager_.expose(std::vector<float>(static_cast<std::size_t>(camera.width) *
+                                             static_cast<std::size_t>(camera.height)),
+                          number);
+  }
   const Eigen::Isometry3d T_lidar_camera = context_.calibration.T_camera_lidar.inverse();
   const auto light_at = [&](Elapsed at) {
     return renderer_.render(context_.walk.lidar_pose(to_seconds(at)) * T_lidar_camera);

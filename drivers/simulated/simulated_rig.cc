@@ -81,7 +81,7 @@ struct SimulatedRig::Parts {
       : options(o),
         config(simulated_rig_config(o)),
         world(std::move(scene)),
-        walk(std::make_shared<const Walk>(world.scene().walk, o.seed)),
+        walk(std::make_shared<const Walk>(world.scene().walk, o.seed, o.faults.carried)),
         faults(o.faults, o.seed),
         camera_clock(o),
         pulses(o.seed),

@@ -24,11 +24,24 @@ struct SimulatedFaults {
     std::chrono::nanoseconds from{0};
     std::chrono::nanoseconds lasting{0};
   };
+  // The lens is covered: frames come, and are dark.
+  struct Covered {
+    std::chrono::nanoseconds from{0};
+    std::chrono::nanoseconds lasting{0};
+  };
+  // From one moment to the next the rig is where the walk would have brought it later, or had
+  // brought it before.
+  struct Carried {
+    std::chrono::nanoseconds at{0};
+    std::chrono::nanoseconds ahead{0};  // along the walk; negative: back
+  };
   double lost_edges = 0.0;
   double lost_frames = 0.0;  // the driver's sequence shows the gap
   double lost_packets = 0.0;
   std::optional<ClockJump> lidar_clock_jump;
   std::vector<Away> away;
+  std::vector<Covered> covered;
+  std::vector<Carried> carried;
 };
 
 enum class SimulatedLens : std::uint8_t { kMild, kRectified };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "drivers/simulated/random.h"
 
@@ -93,7 +94,8 @@ double SmoothLoop::operator()(double laps) const {
          6.0;
 }
 
-Walk::Walk(const WalkPlan& plan, std::uint64_t seed) : plan_(plan), seed_(seed) {
+Walk::Walk(const WalkPlan& plan, std::uint64_t seed, std::vector<SimulatedFaults::Carried> carried)
+    : plan_(plan), seed_(seed), carried_(std::move(carried)) {
   const std::vector<Eigen::Vector2d> way = rounded(plan);
   const double length = length_of(way);
   const auto count = static_cast<std::size_t>(length / kSpacingM);
@@ -131,6 +133,15 @@ Walk::Walk(const WalkPlan& plan, std::uint64_t seed) : plan_(plan), seed_(seed) 
   }
 }
 
+// Which second of the walk it is.
+double Walk::on_the_walk(double seconds) const {
+  double on_the_walk = seconds;
+  for (const SimulatedFaults::Carried& carried : carried_) {
+    if (seconds >= to_seconds(carried.at)) on_the_walk += to_seconds(carried.ahead);
+  }
+  return on_the_walk;
+}
+
 double Walk::walked_m(double seconds) const {
   const double since = (seconds - plan_.rest_s) / plan_.ramp_s;
   const double even = plan_.speed_m_s * plan_.ramp_s * smooth_step_integral(since);
@@ -162,7 +173,8 @@ double Walk::wander(const Wander& waves, double seconds) const {
   return sum;
 }
 
-Eigen::Isometry3d Walk::lidar_pose(double seconds) const {
+Eigen::Isometry3d Walk::lidar_pose(double at) const {
+  const double seconds = on_the_walk(at);
   const double walked = walked_m(seconds);
   const double laps = (plan_.start_m + walked) / lap_m_;
   // At rest a hand still moves a little.

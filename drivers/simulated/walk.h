@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "drivers/simulated/simulation_options.h"
+
 namespace sparsight::simulated {
 
 // A closed way on the ground that a person walks with the rig in the hand.
@@ -36,10 +38,11 @@ class SmoothLoop {
 };
 
 // Exact pose of the rig at any time: bob, sway and a wandering hand over an even walk. Smooth up to
-// the second derivative. Thread-safe.
+// the second derivative, except where the rig is carried off. Thread-safe.
 class Walk {
  public:
-  Walk(const WalkPlan& plan, std::uint64_t seed);
+  Walk(const WalkPlan& plan, std::uint64_t seed,
+       std::vector<SimulatedFaults::Carried> carried = {});
 
   // T_world_lidar at seconds since the walk began; the rig is the LiDAR's frame, x ahead, y left, z
   // up.
@@ -54,6 +57,7 @@ class Walk {
   };
   using Wander = std::array<Wave, 3>;
 
+  double on_the_walk(double seconds) const;
   double walked_m(double seconds) const;
   double look(double seconds) const;
   double wander(const Wander& waves, double seconds) const;
@@ -65,6 +69,7 @@ class Walk {
   SmoothLoop heading_;
   std::array<Wander, 6> wanders_;
   std::uint64_t seed_;
+  std::vector<SimulatedFaults::Carried> carried_;
 };
 
 }  // namespace sparsight::simulated

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -9,7 +10,9 @@
 
 namespace sparsight {
 
-// Frames hang on keyframes; they are placed once their keyframe's pose is final. Thread-bound.
+// Frames hang on keyframes; they are placed once their keyframe's pose is final. A frame that was
+// lost has no place, unless it became a keyframe itself; nor have those before it that were
+// predicted while nobody knew that tracking would not come back. Thread-bound.
 class AnchoredTrajectory {
  public:
   void add(std::uint64_t sequence, HostTime exposure, const FrameOutcome& outcome);
@@ -23,6 +26,7 @@ class AnchoredTrajectory {
 
  private:
   std::vector<TrajectoryPose> frames_;  // relative to their anchors
+  std::size_t predicted_ = 0;           // the last so many frames
   std::vector<std::uint64_t> anchors_;
   std::map<std::uint64_t, Eigen::Isometry3d> T_world_keyframe_;
 };

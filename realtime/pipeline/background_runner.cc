@@ -31,7 +31,12 @@ void BackgroundRunner::take(RetiredKeyframe&& keyframe) {
   if (shared_.probe) shared_.probe(LiveStage::kBackground);
   const KeyframeEffort effort{.search_loops = !shared_.sheds(Shed::kLoopSearch)};
   if (!effort.search_loops) LiveShared::count(shared_.counters.searches_left_out);
-  if (outputs_.on_keyframe) outputs_.on_keyframe(std::move(keyframe), effort);
+  if (!outputs_.on_keyframe) return;
+  const MapPlace place = outputs_.on_keyframe(std::move(keyframe), effort);
+  for (LatestValue<MapPlace>* reader : {&shared_.map_for_journal, &shared_.map_for_state}) {
+    reader->draft() = place;
+    reader->publish();
+  }
 }
 
 }  // namespace sparsight

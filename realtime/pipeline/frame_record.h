@@ -26,6 +26,7 @@ struct TrajectoryPose {
   std::uint64_t sequence = 0;
   HostTime exposure;
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  bool known = true;  // false while tracking was lost: the pose is the last that was known
 };
 
 }  // namespace sparsight

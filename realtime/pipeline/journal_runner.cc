@@ -58,7 +58,13 @@ void JournalRunner::preview(const LiveRecord& record) {
   }
   if (shared_.probe) shared_.probe(LiveStage::kJournal);
   if (!outputs_.on_preview) return;
-  outputs_.on_preview({record.exposure, record.outcome.T_world_camera, record.outcome.status});
+  shared_.map_for_journal.refresh();
+  const MapPlace& map = shared_.map_for_journal.value();
+  const FrameOutcome& outcome = record.outcome;
+  outputs_.on_preview(
+      {.pose = {record.exposure, outcome.T_world_camera, outcome.status, outcome.submap},
+       .T_map_world = map.T_map_world,
+       .placed = in_its_place(map, outcome.submap)});
 }
 
 void JournalRunner::write_rows(bool all) {

@@ -36,6 +36,26 @@ struct LivePose {
   HostTime exposure;
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
   FrameOutcome::Status status = FrameOutcome::Status::kPredicted;
+  std::uint32_t submap = 0;
+};
+
+// What loops have made of it, as far as the background has come.
+struct MapPlace {
+  Eigen::Isometry3d T_map_world = Eigen::Isometry3d::Identity();  // may jump
+  std::uint32_t submap = 0;                                       // of the newest keyframe there
+  bool placed = true;  // that sub-map is tied to the first by odometry or loops
+};
+
+// Whether it is known where a sub-map lies, of which the background may not have heard yet.
+inline bool in_its_place(const MapPlace& map, std::uint32_t submap) {
+  return map.placed && map.submap == submap;
+}
+
+// A pose for those who watch, in both frames.
+struct LivePreview {
+  LivePose pose;
+  Eigen::Isometry3d T_map_world = Eigen::Isometry3d::Identity();
+  bool placed = true;
 };
 
 // From the window to the journal.

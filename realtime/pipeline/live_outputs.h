@@ -21,11 +21,12 @@ struct LiveOutputs {
   // Every frame, in order; a keyframe's with the time its window took.
   std::function<void(FrameRecord&&)> on_frame;
   // For those who watch; left out when time is short.
-  std::function<void(const LivePose&)> on_preview;
+  std::function<void(const LivePreview&)> on_preview;
 
   // On the background thread: keyframes whose pose is final for the odometry, oldest first. Loop
-  // closure and map take them; they may take their time.
-  std::function<void(RetiredKeyframe&&, const KeyframeEffort&)> on_keyframe;
+  // closure and map take them; they may take their time. They say where the odometry's frame lies
+  // in the map's from then on.
+  std::function<MapPlace(RetiredKeyframe&&, const KeyframeEffort&)> on_keyframe;
 };
 
 }  // namespace sparsight

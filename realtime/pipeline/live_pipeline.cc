@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "realtime/executor/interrupt_threads.h"
 #include "realtime/executor/loop_clock.h"
 #include "realtime/pipeline/background_runner.h"
 #include "realtime/pipeline/device_stage.h"
@@ -18,13 +19,16 @@
 namespace sparsight {
 namespace {
 
-// SCHED_FIFO, above what they feed and below the kernel's interrupt threads that feed them only
-// where those were raised (docs/architecture.md).
+// SCHED_FIFO, each above what it feeds (docs/architecture.md).
+constexpr int kInterruptPriority = 85;  // of the trigger lines
 constexpr int kTriggerPriority = 80;
 constexpr int kLidarPriority = 70;
 constexpr int kCameraPriority = 65;
 constexpr int kSyncPriority = 60;
 constexpr int kTrackingPriority = 40;
+
+// Who has the lines, by the GPIO driver (drivers/gpio/libgpiod_calls.cc): its interrupts' name.
+constexpr const char* kTriggerInterrupt = "sparsight";
 
 // Two seconds and more of each device.
 constexpr std::size_t kCameraEvents = 64;
@@ -32,7 +36,6 @@ constexpr std::size_t kLidarEvents = 2048;
 constexpr std::size_t kTriggerEvents = 256;
 
 constexpr std::chrono::nanoseconds kBlindAfter{500'000'000};
-constexpr std::uint64_t kLostAfter = 10;  // frames in a row
 
 ThreadSettings settings(const char* name, const LiveConfig& config, int priority) {
   ThreadSettings result{.name = name};
@@ -58,7 +61,7 @@ struct LivePipeline::Parts {
                settings("camera", config, kCameraPriority), remarks),
         lidar(stage_device(std::move(devices.lidar)), kLidarEvents,
               settings("lidar", config, kLidarPriority), remarks),
-        trigger(stage_device(std::move(devices.trigger)), kTriggerEvents,
+        trigger(trigger_device(std::move(devices.trigger)), kTriggerEvents,
                 settings("trigger", config, kTriggerPriority), remarks),
         tracking(calibration, odometry),
         window(calibration, odometry),
@@ -84,12 +87,22 @@ struct LivePipeline::Parts {
     }
   }
 
+  // Requesting a line has the kernel make a thread for its interrupt.
+  DeviceStage::Device trigger_device(std::shared_ptr<TriggerLine> line) {
+    DeviceStage::Device device = stage_device(std::move(line));
+    if (!config.realtime) return device;
+    device.streams = [this] {
+      const auto refused = raise_interrupt_threads(kTriggerInterrupt, kInterruptPriority);
+      if (refused) remarks.add(*refused);
+    };
+    return device;
+  }
   std::chrono::nanoseconds period() const {
     return std::chrono::nanoseconds(std::llround(1e9 / config.rate_hz));
   }
   void watch();
   OverloadSigns signs();
-  LiveState state(HostTime now, const SyncState& sync) const;
+  LiveState state(const LiveStatus& status) const;
   void count_work(LiveStatus& status) const;
 
   const LiveConfig config;
@@ -197,14 +210,16 @@ OverloadSigns LivePipeline::Parts::signs() {
           .tracking = now[2] != before[2]};
 }
 
-LiveState LivePipeline::Parts::state(HostTime now, const SyncState& sync) const {
+LiveState LivePipeline::Parts::state(const LiveStatus& status) const {
   const HostTime last_ready{std::chrono::nanoseconds(shared.last_ready_ns.load())};
   if (shared.counters.frames_ready == 0) {
-    return sync.camera.frames == 0 ? LiveState::kWaiting : LiveState::kSynchronizing;
+    return status.sync.camera.frames == 0 ? LiveState::kWaiting : LiveState::kSynchronizing;
   }
-  if (now - last_ready > kBlindAfter) return LiveState::kBlind;
+  if (status.at - last_ready > kBlindAfter) return LiveState::kBlind;
   if (shared.counters.frames_tracked == 0) return LiveState::kSynchronizing;
-  return shared.counters.predicted_in_a_row >= kLostAfter ? LiveState::kLost : LiveState::kTracking;
+  const LivePose& pose = shared.pose.value();
+  if (pose.status == FrameOutcome::Status::kLost) return LiveState::kLost;
+  return in_its_place(status.map, pose.submap) ? LiveState::kTracking : LiveState::kRelocalizing;
 }
 
 void LivePipeline::Parts::count_work(LiveStatus& status) const {
@@ -212,6 +227,7 @@ void LivePipeline::Parts::count_work(LiveStatus& status) const {
   status.frames = c.frames_ready;
   status.frames_tracked = c.frames_tracked;
   status.frames_predicted = c.frames_predicted;
+  status.frames_lost = c.frames_lost;
   status.frames_dropped = c.frames_dropped;
   status.keyframes = c.keyframes;
   status.deadlines_missed = c.deadlines_missed;
@@ -240,9 +256,13 @@ LiveStatus LivePipeline::look() {
   p.shared.rung.store(p.ladder.look(status.at, p.signs()), std::memory_order_relaxed);
   status.shed = p.ladder.rung();
   p.count_work(status);
-  status.state = p.state(status.at, status.sync);
   p.shared.pose.refresh();
-  if (status.frames_tracked > 0) status.pose = p.shared.pose.value();
+  p.shared.map_for_state.refresh();
+  status.map = p.shared.map_for_state.value();
+  status.state = p.state(status);
+  if (status.frames_tracked > 0 && p.shared.pose.value().status != FrameOutcome::Status::kLost) {
+    status.pose = p.shared.pose.value();
+  }
   if (!p.first_event && status.camera.events > 0) p.first_event = status.at;
   if (!p.first_pose && p.first_event && status.frames_tracked > 0) {
     p.first_pose = status.at - *p.first_event;

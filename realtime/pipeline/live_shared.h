@@ -39,6 +39,8 @@ struct LiveShared {
   SpscQueue<RetiredKeyframe> retired{64};      // window → background
   LatestValue<TrackingReference> reference;    // window → tracking
   LatestValue<LivePose> pose;                  // tracking → whoever shows the state
+  LatestValue<MapPlace> map_for_journal;       // background → journal
+  LatestValue<MapPlace> map_for_state;         // background → whoever shows the state
 
   // Relaxed counters: each stands for itself.
   struct Counters {
@@ -46,7 +48,7 @@ struct LiveShared {
     std::atomic<std::uint64_t> frames_dropped{0};  // by us: no free one to put them in
     std::atomic<std::uint64_t> frames_tracked{0};
     std::atomic<std::uint64_t> frames_predicted{0};
-    std::atomic<std::uint64_t> predicted_in_a_row{0};
+    std::atomic<std::uint64_t> frames_lost{0};
     std::atomic<std::uint64_t> keyframes{0};
     std::atomic<std::uint64_t> deadlines_missed{
         0};  // tracking was not done when the next tick was due

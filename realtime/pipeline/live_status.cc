@@ -12,6 +12,8 @@ const char* name_of(LiveState state) {
       return "tracking";
     case LiveState::kLost:
       return "lost";
+    case LiveState::kRelocalizing:
+      return "relocalising";
     case LiveState::kBlind:
       return "blind";
   }

@@ -18,8 +18,9 @@ enum class LiveState : std::uint8_t {
   kWaiting,        // no frame has come from the camera yet
   kSynchronizing,  // frames come, but none whose exposure is known
   kTracking,
-  kLost,   // the last frames could not be tracked; poses are predicted
-  kBlind,  // frames with a known exposure have stopped coming
+  kLost,          // frames cannot be tracked: where the rig is is not known
+  kRelocalizing,  // tracking goes on in a sub-map; where that lies in the map is not known yet
+  kBlind,         // frames with a known exposure have stopped coming
 };
 
 // All there is to know of a live run at one moment.
@@ -31,12 +32,14 @@ struct LiveStatus {
   DeviceStatus lidar;
   DeviceStatus trigger;
   SyncState sync;
-  std::optional<LivePose> pose;
+  std::optional<LivePose> pose;  // nothing while lost
+  MapPlace map;
   std::optional<std::chrono::nanoseconds> first_pose;  // since the sensors' first event
 
   std::uint64_t frames = 0;
   std::uint64_t frames_tracked = 0;
   std::uint64_t frames_predicted = 0;
+  std::uint64_t frames_lost = 0;
   std::uint64_t frames_dropped = 0;
   std::uint64_t keyframes = 0;
   std::uint64_t deadlines_missed = 0;

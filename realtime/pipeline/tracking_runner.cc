@@ -39,7 +39,9 @@ bool TrackingRunner::tick() {
                      kWaitingShare * static_cast<double>(loop_.period().count())));
   while (!any && clock_.now() + kFrameLookAgain < patience) {
     clock_.sleep_until(clock_.now() + kFrameLookAgain);
-    any = track_waiting(tick.due);
+    // Another thread may have had the processor for longer than that: then it is the next tick's,
+    // or this round would end late, and every one after it at the same phase.
+    if (clock_.now() < patience) any = track_waiting(tick.due);
   }
   loop_.shift(any ? phase_.observe(last_ready_, loop_.next()) : phase_.coast());
   shared_.phase_locked.store(phase_.locked(), std::memory_order_relaxed);
@@ -85,14 +87,20 @@ void TrackingRunner::journal(const LiveFrame& frame, HostTime begun, HostTime do
   shared_.exposure_to_pose.add(done - frame.frame.exposure);
   shared_.arrival_to_pose.add(done - frame.arrival);
   LiveShared::Counters& counters = shared_.counters;
-  const bool predicted = outcome.status == FrameOutcome::Status::kPredicted;
-  LiveShared::count(predicted ? counters.frames_predicted : counters.frames_tracked);
-  if (predicted) {
-    LiveShared::count(counters.predicted_in_a_row);
-  } else {
-    counters.predicted_in_a_row.store(0, std::memory_order_relaxed);
+  switch (outcome.status) {
+    case FrameOutcome::Status::kTracked:
+    case FrameOutcome::Status::kFirst:
+      LiveShared::count(counters.frames_tracked);
+      break;
+    case FrameOutcome::Status::kPredicted:
+      LiveShared::count(counters.frames_predicted);
+      break;
+    case FrameOutcome::Status::kLost:
+      LiveShared::count(counters.frames_lost);
+      break;
   }
-  shared_.pose.draft() = {frame.frame.exposure, outcome.T_world_camera, outcome.status};
+  shared_.pose.draft() = {frame.frame.exposure, outcome.T_world_camera, outcome.status,
+                          outcome.submap};
   shared_.pose.publish();
   const LiveRecord record{.sequence = frame.frame.sequence,
                           .exposure = frame.frame.exposure,

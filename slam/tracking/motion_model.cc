@@ -33,6 +33,11 @@ void MotionModel::rebase(HostTime exposure) {
   T_keyframe_last_ = Eigen::Isometry3d::Identity();
 }
 
+void MotionModel::restart(HostTime exposure) {
+  *this = {};
+  observe(exposure, Eigen::Isometry3d::Identity());
+}
+
 Eigen::Isometry3d MotionModel::at(HostTime time) const {
   const auto end = recent_.begin() + static_cast<std::ptrdiff_t>(count_);
   const auto after =

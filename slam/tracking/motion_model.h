@@ -21,6 +21,8 @@ class MotionModel {
   // The frame at `exposure` is the keyframe from now on, whether or not it was observed, and
   // whether or not frames after it were.
   void rebase(HostTime exposure);
+  // The frame at `exposure` is the keyframe from now on, and nothing is known of what was before.
+  void restart(HostTime exposure);
 
   // Camera-frame velocity [rad/s, m/s]; nothing before two frames were observed.
   const std::optional<Vector6d>& twist() const { return twist_; }

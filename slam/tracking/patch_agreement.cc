@@ -5,12 +5,13 @@
 #include <cstddef>
 #include <optional>
 
+#include "slam/tracking/patch_texture.h"
+
 namespace sparsight {
 namespace {
 
 constexpr double kFoundCorrelation = 0.7;
 constexpr double kMissingCorrelation = 0.2;
-constexpr double kTextureGrey = 4.0;  // standard deviation from which a patch has texture
 
 struct Moments {
   double n = 0.0, a = 0.0, b = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;

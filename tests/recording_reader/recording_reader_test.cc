@@ -187,7 +187,7 @@ TEST(IndependentReader, SeesStatesAndPoses) {
   EXPECT_EQ(topics["/pose"]["first"]["pose"]["position"],
             json({{"x", 1.5}, {"y", -2.5}, {"z", 3.5}}));
   const json& transform = topics["/tf"]["first"]["transforms"][0];
-  EXPECT_EQ(transform["header"]["frame_id"], "world");
+  EXPECT_EQ(transform["header"]["frame_id"], "odom");
   EXPECT_EQ(transform["child_frame_id"], "camera");
   EXPECT_EQ(transform["transform"]["translation"], json({{"x", 1.5}, {"y", -2.5}, {"z", 3.5}}));
   EXPECT_EQ(transform["transform"]["rotation"]["w"], 1.0);

@@ -25,7 +25,8 @@ ChartSeries over_frames(const Session& session, Kind kind, std::string name, std
 bool any(const FrameFigures&) { return true; }
 bool keyframe(const FrameFigures& frame) { return frame.keyframe; }
 bool predicted(const FrameFigures& frame) {
-  return frame.status == FrameOutcome::Status::kPredicted;
+  return frame.status == FrameOutcome::Status::kPredicted ||
+         frame.status == FrameOutcome::Status::kLost;
 }
 bool measured(const FrameFigures& frame) { return frame.status == FrameOutcome::Status::kTracked; }
 
@@ -47,8 +48,8 @@ Chart frame_chart(const Session& session, const char* title, const char* y_label
     chart.x_includes = {static_cast<double>(session.frames.front().sequence),
                         static_cast<double>(session.frames.back().sequence)};
   }
-  chart.series.push_back(over_frames(session, Kind::kRug, "predicted, not measured", "fault",
-                                     predicted, [](const auto&) { return 0.0; }));
+  chart.series.push_back(over_frames(session, Kind::kRug, "predicted or lost", "fault", predicted,
+                                     [](const auto&) { return 0.0; }));
   return chart;
 }
 

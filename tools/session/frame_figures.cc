@@ -27,6 +27,8 @@ const char* name_of(FrameOutcome::Status status) {
       return "first";
     case FrameOutcome::Status::kPredicted:
       return "predicted";
+    case FrameOutcome::Status::kLost:
+      return "lost";
   }
   return "unknown";
 }

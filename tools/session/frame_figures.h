@@ -25,7 +25,7 @@ struct FrameFigures {
 
 FrameFigures figures_of(const FrameRecord& record);
 
-// "first", "tracked" or "predicted".
+// "first", "tracked", "predicted" or "lost".
 const char* name_of(FrameOutcome::Status status);
 
 inline double to_milliseconds(std::chrono::nanoseconds duration) {

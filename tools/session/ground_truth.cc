@@ -15,6 +15,7 @@ constexpr double kShortPath_m = 200.0;
 Trajectory estimate_of(const std::vector<TrajectoryPose>& trajectory, bool with_times) {
   Trajectory estimate{.source = "trajectory"};
   for (const TrajectoryPose& pose : trajectory) {
+    if (with_times && !pose.known) continue;  // without times, place in the file is all there is
     estimate.poses.push_back(pose.T_world_camera);
     if (with_times) estimate.times.push_back(pose.exposure);
   }

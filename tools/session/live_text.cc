@@ -13,6 +13,14 @@ using Json = nlohmann::ordered_json;
 
 double megabytes(std::uint64_t bytes) { return 1e-6 * static_cast<double>(bytes); }
 
+// Metres, and a quaternion.
+Json json_of(const Eigen::Isometry3d& T) {
+  const Eigen::Vector3d t = T.translation();
+  const Eigen::Quaterniond q(T.linear());
+  return {{"position_m", {t.x(), t.y(), t.z()}},
+          {"orientation_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
+}
+
 Json json_of(const LatencySnapshot& latency) {
   return {{"count", latency.count},
           {"p50", to_milliseconds(latency.percentile(0.5))},
@@ -112,6 +120,7 @@ std::string live_json(const LiveView& view) {
       {"frames", now.frames},
       {"tracked", now.frames_tracked},
       {"predicted", now.frames_predicted},
+      {"lost", now.frames_lost},
       {"keyframes", now.keyframes},
       {"frames_dropped", now.frames_dropped},
       {"records_dropped", now.records_dropped},
@@ -136,8 +145,12 @@ std::string live_json(const LiveView& view) {
       {"resident_bytes", view.resident_bytes}};
   if (now.first_pose) json["first_pose_s"] = to_seconds(*now.first_pose);
   if (now.pose) {
-    const Eigen::Vector3d p = now.pose->T_world_camera.translation();
-    json["position_m"] = {p.x(), p.y(), p.z()};
+    json["submap"] = now.pose->submap;
+    json["T_odom_camera"] = json_of(now.pose->T_world_camera);
+    if (in_its_place(now.map, now.pose->submap)) {
+      json["T_map_camera"] = json_of(now.map.T_map_world * now.pose->T_world_camera);
+      json["T_map_odom"] = json_of(now.map.T_map_world);
+    }
   }
   json["recorder"] = view.recorder ? json_of(*view.recorder) : Json(nullptr);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -16,7 +16,7 @@ using Positions = std::vector<Eigen::Vector3d>;
 Positions positions_of(const std::vector<TrajectoryPose>& trajectory) {
   Positions positions;
   for (const TrajectoryPose& pose : trajectory) {
-    positions.emplace_back(pose.T_world_camera.translation());
+    if (pose.known) positions.emplace_back(pose.T_world_camera.translation());
   }
   return positions;
 }
@@ -30,12 +30,47 @@ Positions positions_at(const Session& session, const std::vector<std::uint64_t>&
   return positions;
 }
 
+// Part of the path without a gap. Apart: nothing tells where it lies relative to the start.
+struct Stretch {
+  Positions positions;
+  bool apart = false;
+};
+
+std::vector<Stretch> stretches_of(const Session& session) {
+  std::vector<Stretch> stretches;
+  auto next = session.submaps.begin();
+  bool apart = false;
+  bool in_gap = true;
+  for (const TrajectoryPose& pose : session.trajectory) {
+    bool begins = false;
+    for (; next != session.submaps.end() && next->first_keyframe <= pose.sequence; ++next) {
+      begins = true;
+      apart = next->part != session.submaps.front().part;
+    }
+    if (pose.known && (in_gap || begins)) stretches.push_back({.apart = apart});
+    if (pose.known) stretches.back().positions.emplace_back(pose.T_world_camera.translation());
+    in_gap = !pose.known;
+  }
+  return stretches;
+}
+
 std::vector<std::uint64_t> predicted_frames(const Session& session) {
   std::vector<std::uint64_t> sequences;
   for (const FrameFigures& frame : session.frames) {
     if (frame.status == FrameOutcome::Status::kPredicted) sequences.push_back(frame.sequence);
   }
   return sequences;
+}
+
+// Where the camera was last known to be, and where it was known again.
+Positions ends_of_gaps(const std::vector<TrajectoryPose>& trajectory) {
+  Positions positions;
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    if (trajectory[i - 1].known == trajectory[i].known) continue;
+    const TrajectoryPose& end = trajectory[trajectory[i].known ? i : i - 1];
+    positions.emplace_back(end.T_world_camera.translation());
+  }
+  return positions;
 }
 
 // Both ends of each.
@@ -112,13 +147,20 @@ Chart path_chart(const Session& session) {
     chart.series.push_back(
         {.kind = kind, .name = name, .ink = ink, .points = from_above(positions)});
   };
-  add(Kind::kPath, "Sparsight", "estimate", positions_of(session.trajectory));
+  const char* name = "Sparsight";
+  const char* name_apart = "sub-map that nothing joins: where it lies is a guess";
+  for (const Stretch& stretch : stretches_of(session)) {
+    const char*& next_name = stretch.apart ? name_apart : name;
+    add(Kind::kPath, next_name, stretch.apart ? "apart" : "estimate", stretch.positions);
+    next_name = "";
+  }
   if (!session.odometry.empty()) {
     add(Kind::kPath, "odometry, without loops", "dashed", positions_of(session.odometry));
   }
   add(Kind::kDots, "keyframes", "keyframe", positions_at(session, session.keyframes));
   add(Kind::kDots, "predicted, not measured", "fault",
       positions_at(session, predicted_frames(session)));
+  add(Kind::kDots, "lost", "lost", ends_of_gaps(session.trajectory));
   if (!session.loops.empty()) add(Kind::kDots, "loops", "loop", positions_of_loops(session));
   if (!session.trajectory.empty()) {
     add(Kind::kDots, "start", "start", {session.trajectory.front().T_world_camera.translation()});

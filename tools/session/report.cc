@@ -32,6 +32,7 @@ std::string cards_of(const Session& session, const SessionSummary& summary) {
   if (session.truth) cards += accuracy_cards(session.truth->evaluation);
   cards += card(fmt::format("{} of {}", summary.tracked, summary.frames), "frames tracked");
   cards += card(fmt::format("{}", summary.predicted), "predicted only");
+  if (summary.lost > 0) cards += card(fmt::format("{}", summary.lost), "lost");
   cards += card(fmt::format("{}", summary.keyframes), "keyframes");
   cards += card(fmt::format("{:.2f} ms", summary.tracking.median_ms), "tracking, median");
   cards += card(fmt::format("{:.2f} ms", summary.tracking.p99_ms), "tracking, p99");

@@ -41,6 +41,8 @@ line.grid { stroke: var(--grid); } line.axis { stroke: var(--axis); }
 .stroke.fault, .dots.fault { stroke: var(--fault); }
 .dots.loop { stroke: var(--truth); stroke-width: 5; }
 .dots.keyframe { stroke-width: 3.4; }
+.dots.lost { stroke: var(--fault); stroke-width: 8; }
+.stroke.apart { stroke: var(--keyframe); }
 .dots.start { stroke: var(--text); stroke-width: 9; }
 .stroke.dashed { stroke: var(--text); stroke-dasharray: 6 4; stroke-width: 1.2; }
 .stroke.dotted { stroke: var(--fault); stroke-dasharray: 2 3; stroke-width: 1.4; }

@@ -23,6 +23,7 @@ struct SessionDescription {
   std::optional<int> rays;  // none: all the scans have
   int camera = 0;
   RigCalibration calibration;
+  float full_intensity = 255.0F;  // of the LiDAR's brightest return
 };
 
 // Milliseconds.
@@ -62,6 +63,7 @@ struct Session {
   std::vector<TrajectoryPose> trajectory;  // corrected, if loops were looked for
   std::vector<TrajectoryPose> odometry;    // uncorrected; empty if loops were not looked for
   std::vector<LoopClosure> loops;          // that stand
+  std::vector<Submap> submaps;             // the first begins where the session does
   LoopStatistics loop_statistics;
   std::vector<std::uint64_t> keyframes;  // their frames' sequence numbers
   FaultLog faults;

@@ -79,7 +79,31 @@ Json json_of(const LoopStatistics& statistics) {
                {"candidates", statistics.candidates}};
   for (const auto& [verdict, count] : statistics.verdicts) json[name_of(verdict)] = count;
   json["contradicted_by_graph"] = statistics.contradicted;
+  json["submaps_joined"] = statistics.submaps_joined;
   return json;
+}
+
+// Frames without a pose: trajectory.tum has no line for them, trajectory.kitti that of the frame
+// before.
+Json json_of(const std::vector<Gap>& gaps) {
+  Json list = Json::array();
+  for (const Gap& gap : gaps) {
+    list.push_back(
+        {{"first_frame", gap.first}, {"last_frame", gap.last}, {"seconds", gap.seconds}});
+  }
+  return list;
+}
+
+// Those of one "part" stand where odometry and loops have them; how parts stand to each other is a
+// guess.
+Json json_of(const std::vector<Submap>& submaps) {
+  Json list = Json::array();
+  for (const Submap& submap : submaps) {
+    list.push_back({{"first_frame", submap.first_keyframe},
+                    {"keyframes", submap.keyframes},
+                    {"part", submap.part}});
+  }
+  return list;
 }
 
 Json json_of(const std::vector<LoopClosure>& loops) {
@@ -90,6 +114,7 @@ Json json_of(const std::vector<LoopClosure>& loops) {
     list.push_back(
         {{"frame", loop.current},
          {"seen_before_in_frame", loop.candidate},
+         {"in_earlier_map", loop.in_earlier_map},
          {"T_frame_before_tx_ty_tz_qx_qy_qz_qw", {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}},
          {"distance_m", t.norm()},
          {"pose_inliers", loop.check.pose_inliers},
@@ -116,6 +141,9 @@ std::string session_json(const Session& session, const SessionSummary& summary) 
                {"frames", summary.frames},
                {"tracked", summary.tracked},
                {"predicted", summary.predicted},
+               {"lost", summary.lost},
+               {"gaps", json_of(gaps_of(session.trajectory))},
+               {"submaps", json_of(session.submaps)},
                {"keyframes", summary.keyframes},
                {"map_points", session.map_points},
                {"recorded_s", summary.recorded_s},

@@ -1,14 +1,19 @@
 #include "tools/session/session_recorder.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
 
 #include "tools/configuration/profile.h"
-#include "tools/session/ply_writer.h"
 #include "tools/session/report.h"
 #include "tools/session/session_summary.h"
 
 namespace sparsight {
 namespace {
+
+// Images and clouds of the session that is running.
+constexpr const char* kKeyframeFile = "keyframes.partial";
 
 std::string kitti_text(const std::vector<TrajectoryPose>& trajectory) {
   std::vector<Eigen::Isometry3d> poses;
@@ -17,9 +22,11 @@ std::string kitti_text(const std::vector<TrajectoryPose>& trajectory) {
   return format_kitti(poses);
 }
 
+// Frames that were lost have no line; in KITTI's format, which has no times, all have one.
 Trajectory with_its_times(const std::vector<TrajectoryPose>& trajectory) {
   Trajectory result;
   for (const TrajectoryPose& pose : trajectory) {
+    if (!pose.known) continue;
     result.poses.push_back(pose.T_world_camera);
     result.times.push_back(pose.exposure);
   }
@@ -30,7 +37,8 @@ std::vector<TrajectoryPose> poses_as_tracked(const std::vector<FrameFigures>& fr
   std::vector<TrajectoryPose> trajectory;
   trajectory.reserve(frames.size());
   for (const FrameFigures& frame : frames) {
-    trajectory.push_back({frame.sequence, frame.exposure, frame.T_world_camera});
+    trajectory.push_back({frame.sequence, frame.exposure, frame.T_world_camera,
+                          frame.status != FrameOutcome::Status::kLost});
   }
   return trajectory;
 }
@@ -38,18 +46,29 @@ std::vector<TrajectoryPose> poses_as_tracked(const std::vector<FrameFigures>& fr
 }  // namespace
 
 SessionRecorder::SessionRecorder(std::filesystem::path folder, SessionDescription description,
-                                 bool map, AtomicFile::Appears journal)
-    : folder_(std::move(folder)), journal_(folder_ / "frames.csv", journal) {
+                                 std::vector<CloudFormat> map, AtomicFile::Appears journal)
+    : folder_(std::move(folder)),
+      formats_(std::move(map)),
+      keyframes_(std::make_shared<PagedKeyframes>()),
+      journal_(folder_ / "frames.csv", journal) {
   if (journal == AtomicFile::Appears::kAtOnce) {
     poses_.emplace(folder_ / "trajectory.tum", journal);
     poses_->stream() << kTumHeader;
   }
   session_.description = std::move(description);
-  if (map) map_.emplace(VoxelMapConfig{});
+  if (!formats_.empty()) {
+    map_.emplace(VoxelMapConfig{});
+    composer_.emplace(*map_);
+  }
   journal_.stream() << frames_csv_header();
 }
 
 Result<void> SessionRecorder::begin() {
+  if (session_.description.config.loop.enabled && !keyframes_->writes()) {
+    auto file = KeyframeFile::create(folder_ / kKeyframeFile);
+    if (!file) return tl::unexpected(file.error());
+    keyframes_->write_to(std::move(*file));
+  }
   if (std::filesystem::exists(folder_ / "session.json")) return {};
   return write_file(folder_ / "session.json", session_json(session_, {}));
 }
@@ -58,7 +77,7 @@ std::vector<Error> SessionRecorder::add(const FrameRecord& record) {
   session_.frames.push_back(figures_of(record));
   journal_.stream() << frames_csv_line(session_.frames.back());
   journal_.flush();
-  if (poses_) {
+  if (poses_ && record.outcome.status != FrameOutcome::Status::kLost) {
     poses_->stream() << tum_line(record.exposure, record.outcome.T_world_camera);
     poses_->flush();
   }
@@ -71,14 +90,33 @@ std::vector<Error> SessionRecorder::add(const FrameRecord& record) {
 
 void SessionRecorder::add(const RetiredKeyframe& keyframe) {
   session_.keyframes.push_back(keyframe.sequence);
-  if (!map_) return;
-  if (!session_.description.config.loop.enabled) {
-    map_->add(keyframe);
-    return;
+  if (keyframe.begins_submap || session_.submaps.empty()) {
+    session_.submaps.push_back({.first_keyframe = keyframe.sequence, .part = keyframe.sequence});
   }
-  unplaced_.push_back({.sequence = keyframe.sequence,
-                       .T_world_camera = keyframe.T_world_camera,
-                       .cloud_camera = keyframe.cloud_camera});
+  ++session_.submaps.back().keyframes;
+  if (!composer_ || session_.description.config.loop.enabled) return;
+  composer_->add({.T_world_camera = keyframe.T_world_camera,
+                  .camera = session_.description.calibration.camera,
+                  .cloud_camera = keyframe.cloud_camera});
+}
+
+void SessionRecorder::compose_map(const std::vector<PlacedKeyframe>& placed) {
+  for (const PlacedKeyframe& keyframe : placed) {
+    auto bulk = keyframes_->get(keyframe.stored);
+    if (!bulk) continue;
+    composer_->add({.T_world_camera = keyframe.T_world_camera,
+                    .camera = keyframe.camera,
+                    .cloud_camera = std::move(bulk->cloud_camera)});
+  }
+  composer_->finish();
+}
+
+void SessionRecorder::note_keyframes() {
+  const std::size_t lost = keyframes_->not_kept() + keyframes_->damaged();
+  if (lost == 0 || !session_.description.config.loop.enabled) return;
+  session_.notes.push_back(
+      fmt::format("{} keyframes could not be kept or read back; they are missing in the map: {}",
+                  lost, keyframes_->message()));
 }
 
 void SessionRecorder::end(ReplayTrajectories trajectories, std::chrono::nanoseconds wall_time) {
@@ -89,14 +127,8 @@ void SessionRecorder::end(ReplayTrajectories trajectories, std::chrono::nanoseco
     session_.trajectory = std::move(trajectories.corrected);
     session_.odometry = std::move(trajectories.odometry);
   }
-  for (RetiredKeyframe& keyframe : unplaced_) {
-    const auto corrected = trajectories.corrected_keyframes.find(keyframe.sequence);
-    if (corrected != trajectories.corrected_keyframes.end()) {
-      keyframe.T_world_camera = corrected->second;
-    }
-    map_->add(keyframe);
-  }
-  unplaced_.clear();
+  if (composer_) compose_map(trajectories.placed);
+  note_keyframes();
   session_.wall_time = wall_time;
   session_.complete = !session_.broke_off;
 }
@@ -114,6 +146,8 @@ Result<void> SessionRecorder::write() {
   }
   if (auto written = write_odometry(); !written) return written;
   return journal_.commit().and_then([&] { return write_map(); }).and_then([&] {
+    std::error_code error;  // nothing needs it any more
+    std::filesystem::remove(folder_ / kKeyframeFile, error);
     return write_file(folder_ / "session.json", session_json(session_, summary));
   });
 }
@@ -129,9 +163,17 @@ Result<void> SessionRecorder::write_odometry() {
 }
 
 Result<void> SessionRecorder::write_map() {
-  if (map_) return write_ply(folder_ / "map.ply", map_->points());
-  std::error_code error;  // an earlier session's map would not be this one's
-  std::filesystem::remove(folder_ / "map.ply", error);
+  for (const CloudFormat format : kCloudFormats) {
+    const std::filesystem::path file = folder_ / fmt::format("map.{}", name_of(format));
+    if (std::ranges::find(formats_, format) == formats_.end()) {
+      std::error_code error;  // an earlier session's map would not be this one's
+      std::filesystem::remove(file, error);
+    } else if (auto written =
+                   write_cloud(file, format, map_->points(), session_.description.full_intensity);
+               !written) {
+      return written;
+    }
+  }
   return {};
 }
 

@@ -31,8 +31,10 @@ void count_frames(const std::vector<FrameFigures>& frames, SessionSummary& summa
   std::vector<double> tracking_ms;
   std::vector<double> window_ms;
   for (const FrameFigures& frame : frames) {
-    const bool predicted = frame.status == FrameOutcome::Status::kPredicted;
-    ++(predicted ? summary.predicted : summary.tracked);
+    using Status = FrameOutcome::Status;
+    ++(frame.status == Status::kLost        ? summary.lost
+       : frame.status == Status::kPredicted ? summary.predicted
+                                            : summary.tracked);
     tracking_ms.push_back(to_milliseconds(frame.tracking_time));
     if (!frame.keyframe) continue;
     ++summary.keyframes;
@@ -67,6 +69,25 @@ SessionSummary summarize(const Session& session) {
     summary.realtime_factor = summary.recorded_s / wall_s;
   }
   return summary;
+}
+
+std::vector<Gap> gaps_of(const std::vector<TrajectoryPose>& trajectory) {
+  std::vector<Gap> gaps;
+  for (std::size_t i = 0; i < trajectory.size();) {
+    if (trajectory[i].known) {
+      ++i;
+      continue;
+    }
+    std::size_t end = i;
+    while (end < trajectory.size() && !trajectory[end].known) ++end;
+    const HostTime from = trajectory[i > 0 ? i - 1 : i].exposure;
+    const HostTime to = trajectory[std::min(end, trajectory.size() - 1)].exposure;
+    gaps.push_back({.first = trajectory[i].sequence,
+                    .last = trajectory[end - 1].sequence,
+                    .seconds = to_seconds(to - from)});
+    i = end;
+  }
+  return gaps;
 }
 
 std::optional<Error> failure_of(const Session& session) {

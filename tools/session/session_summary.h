@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "tools/session/session.h"
 
@@ -16,8 +18,9 @@ struct StageTiming {
 
 struct SessionSummary {
   std::size_t frames = 0;
-  std::size_t tracked = 0;    // the first, which defines the world, among them
-  std::size_t predicted = 0;  // frames = tracked + predicted
+  std::size_t tracked = 0;  // the first, which defines the world, among them
+  std::size_t predicted = 0;
+  std::size_t lost = 0;  // frames = tracked + predicted + lost
   std::size_t keyframes = 0;
   double recorded_s = 0.0;  // from the first exposure to the last
   double path_length_m = 0.0;
@@ -28,6 +31,14 @@ struct SessionSummary {
 };
 
 SessionSummary summarize(const Session& session);
+
+// Frames in a row for which no pose is known.
+struct Gap {
+  std::uint64_t first = 0;  // sequence numbers
+  std::uint64_t last = 0;
+  double seconds = 0.0;  // from the last known pose before it to the first after it
+};
+std::vector<Gap> gaps_of(const std::vector<TrajectoryPose>& trajectory);
 
 // A calibration that the images contradict is the user's to know, and to mend: a note.
 void tell_camera_found(const CameraIntrinsics& given, const CameraIntrinsics& found,

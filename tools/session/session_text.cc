@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tools/session/session_summary.h"
 
 namespace sparsight {
@@ -28,6 +30,17 @@ std::string faults_text(const FaultLog& faults) {
   return fmt::format("faults    {} in the source's data: {}\n", faults.count(), kinds);
 }
 
+std::string loss_text(const Session& session, const SessionSummary& summary) {
+  if (summary.lost == 0) return "";
+  const auto apart = std::ranges::count_if(session.submaps, [&](const Submap& submap) {
+    return submap.part != session.submaps.front().part;
+  });
+  return fmt::format(
+      "lost      {} frames in {} gaps; {} sub-maps, {} of them not joined to the first: where they "
+      "lie is a guess\n",
+      summary.lost, gaps_of(session.trajectory).size(), session.submaps.size(), apart);
+}
+
 std::string timing_text(const SessionSummary& summary) {
   return fmt::format(
       "speed     {:.1f} frames/s, {:.1f} x real time; tracking median {:.2f} ms, p99 {:.2f} ms; "
@@ -44,6 +57,7 @@ std::string session_text(const Session& session, const std::filesystem::path& fo
       fmt::format("frames    {} in {:.1f} s and {:.1f} m: {} tracked, {} predicted, {} keyframes\n",
                   summary.frames, summary.recorded_s, summary.path_length_m, summary.tracked,
                   summary.predicted, summary.keyframes);
+  text += loss_text(session, summary);
   if (session.description.config.loop.enabled) {
     text += fmt::format("loops     {} closed, {} candidates verified\n", session.loops.size(),
                         session.loop_statistics.candidates);

@@ -3,10 +3,13 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/session/simulate_session.h"
+#include "tools/sparsight/fault_options.h"
 #include "tools/sparsight/subcommands.h"
 
 namespace sparsight {
@@ -15,9 +18,6 @@ namespace {
 const std::map<std::string, SimulatedScene> kScenes{{"corridor", SimulatedScene::kCorridor},
                                                     {"hall", SimulatedScene::kHall},
                                                     {"street", SimulatedScene::kStreet}};
-const std::map<std::string, DeviceKind> kDevices{{"camera", DeviceKind::kCamera},
-                                                 {"lidar", DeviceKind::kLidar},
-                                                 {"trigger", DeviceKind::kTrigger}};
 const std::map<std::string, ReturnMode> kReturnModeNames{{"strongest", ReturnMode::kStrongest},
                                                          {"last", ReturnMode::kLast},
                                                          {"dual", ReturnMode::kDual}};
@@ -31,31 +31,36 @@ struct SimulateArguments {
   bool no_pps = false;
   std::vector<double> clock_jump;
   std::vector<std::string> away;
+  std::vector<std::string> covered;
+  std::vector<std::string> carried;
   bool quiet = false;
 };
-
-std::chrono::nanoseconds from_seconds(double seconds) {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-      std::chrono::duration<double>(seconds));
-}
 
 bool read_size(const std::string& text, SimulationOptions& options) {
   char rest = 0;
   return std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &rest) == 2;
 }
 
-// DEVICE:FROM:SECONDS
-bool read_away(const std::string& text, SimulatedFaults& faults) {
-  const std::size_t colon = text.find(':');
-  const auto device = kDevices.find(text.substr(0, colon));
-  if (colon == std::string::npos || device == kDevices.end()) return false;
-  double from = 0.0;
-  double lasting = 0.0;
+// FROM:SECONDS; `least` is that of the second.
+std::optional<std::pair<double, double>> read_pair(const std::string& text, double least) {
+  double first = 0.0;
+  double second = 0.0;
   char rest = 0;
-  if (std::sscanf(text.c_str() + colon, ":%lf:%lf%c", &from, &lasting, &rest) != 2) return false;
-  if (!(from >= 0.0 && lasting > 0.0 && from < 1e5 && lasting < 1e5)) return false;
-  faults.away.push_back({device->second, from_seconds(from), from_seconds(lasting)});
-  return true;
+  if (std::sscanf(text.c_str(), "%lf:%lf%c", &first, &second, &rest) != 2) return std::nullopt;
+  if (!(first >= 0.0 && first < 1e5 && second >= least && second < 1e5)) return std::nullopt;
+  return std::pair{first, second};
+}
+
+bool read_covered(const std::string& text, SimulatedFaults& faults) {
+  const auto times = read_pair(text, 0.0);
+  if (times) faults.covered.push_back({from_seconds(times->first), from_seconds(times->second)});
+  return times.has_value();
+}
+
+bool read_carried(const std::string& text, SimulatedFaults& faults) {
+  const auto times = read_pair(text, -1e5);
+  if (times) faults.carried.push_back({from_seconds(times->first), from_seconds(times->second)});
+  return times.has_value();
 }
 
 int usage(const std::string& problem) {
@@ -65,18 +70,28 @@ int usage(const std::string& problem) {
 
 int simulate(SimulateArguments arguments) {
   SimulationOptions& options = arguments.session.options;
-  options.duration = from_seconds(arguments.duration_s);
+  options.duration = seconds_given(arguments.duration_s);
   options.exposure = std::chrono::microseconds(static_cast<long>(1000.0 * arguments.exposure_ms));
   options.lens = arguments.rectified ? SimulatedLens::kRectified : SimulatedLens::kMild;
   options.pps = !arguments.no_pps;
   if (!read_size(arguments.size, options)) return usage("--size is WIDTHxHEIGHT, as in 800x600");
   if (arguments.clock_jump.size() == 2) {
-    options.faults.lidar_clock_jump = {from_seconds(arguments.clock_jump[0]),
-                                       from_seconds(arguments.clock_jump[1])};
+    options.faults.lidar_clock_jump = {seconds_given(arguments.clock_jump[0]),
+                                       seconds_given(arguments.clock_jump[1])};
   }
   for (const std::string& away : arguments.away) {
     if (!read_away(away, options.faults)) {
-      return usage("--away is camera|lidar|trigger:FROM:SECONDS, as in camera:10:3, not " + away);
+      return usage(away_usage(away));
+    }
+  }
+  for (const std::string& covered : arguments.covered) {
+    if (!read_covered(covered, options.faults)) {
+      return usage("--cover is FROM:SECONDS, as in 10:5, not " + covered);
+    }
+  }
+  for (const std::string& carried : arguments.carried) {
+    if (!read_carried(carried, options.faults)) {
+      return usage("--carry is AT:AHEAD, as in 20:8 or 20:-8, not " + carried);
     }
   }
   if (arguments.session.output.empty() && arguments.session.frames.empty()) {
@@ -109,6 +124,15 @@ void add_faults(CLI::App& command, SimulateArguments& arguments) {
   command
       .add_option("--away", arguments.away,
                   "DEVICE:FROM:SECONDS: camera, lidar or trigger is gone for a while")
+      ->allow_extra_args(false);
+  command
+      .add_option("--cover", arguments.covered,
+                  "FROM:SECONDS: the lens is covered for a while, frames are dark")
+      ->allow_extra_args(false);
+  command
+      .add_option("--carry", arguments.carried,
+                  "AT:AHEAD: after AT seconds the rig is at once where the walk would be AHEAD "
+                  "seconds later (negative: was before)")
       ->allow_extra_args(false);
 }
 

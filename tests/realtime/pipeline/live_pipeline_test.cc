@@ -46,9 +46,10 @@ struct LiveWalk {
     LiveOutputs outputs;
     outputs.on_event = [this](RigEvent&& event) { ++recorded[event.index()]; };
     outputs.on_frame = [this](FrameRecord&& record) { frames.push_back(std::move(record)); };
-    outputs.on_preview = [this](const LivePose&) { ++previews; };
+    outputs.on_preview = [this](const LivePreview&) { ++previews; };
     outputs.on_keyframe = [this](RetiredKeyframe&& keyframe, const KeyframeEffort&) {
       keyframes.push_back(std::move(keyframe));
+      return MapPlace{};
     };
     return outputs;
   }

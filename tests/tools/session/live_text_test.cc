@@ -46,7 +46,7 @@ TEST(LiveJson, IsOneLineThatAMachineReads) {
   EXPECT_EQ(json.at("state"), "tracking");
   EXPECT_EQ(json.at("exposure_to_pose_ms").at("count"), 30);
   EXPECT_EQ(json.at("lidar").at("message"), "no network");
-  EXPECT_EQ(json.at("position_m"), (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(json.at("T_odom_camera").at("position_m"), (std::vector<double>{1, 2, 3}));
   EXPECT_EQ(json.at("recorder").at("state"), "ended: the disk is full");
 }
 
