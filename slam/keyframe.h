@@ -11,11 +11,14 @@
 
 namespace sparsight {
 
-// A return the camera saw, with its colour (grey cameras: r = g = b). For the map.
+// A return within the image, with its colour (grey cameras: r = g = b). For the map.
 struct CloudPoint {
   Eigen::Vector3f p_camera;  // keyframe's camera frame at its exposure, metres
   float intensity = 0.0F;    // as the LiDAR gave it
   std::array<std::uint8_t, 3> rgb{};
+  // False: something nearer hides it from the camera, which stands elsewhere than the LiDAR; the
+  // pixel there shows that, and rgb is black.
+  bool colored = true;
 };
 
 // A frame in the window (Sec. IV-B2): its image, its depth, its pose.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "slam/points/camera_returns.h"
+#include "slam/points/visibility.h"
 #include "slam/tracking/patch_texture.h"
 #include "slam/tracking/strangers.h"
 
@@ -22,6 +23,23 @@ CloudPoint colored(const CameraReturn& r, const SynchronizedFrame& frame) {
     point.rgb.fill(frame.grey.at(u, v));
   }
   return point;
+}
+
+// What the camera does not see would take the colour of what hides it.
+std::vector<CloudPoint> colored(const std::vector<CameraReturn>& returns, const CameraModel& camera,
+                                const SynchronizedFrame& frame) {
+  const std::vector<bool> hidden = hidden_from_camera(returns, camera);
+  std::vector<CloudPoint> cloud;
+  cloud.reserve(returns.size());
+  for (std::size_t i = 0; i < returns.size(); ++i) {
+    if (hidden[i]) {
+      cloud.push_back(
+          {.p_camera = returns[i].p_camera, .intensity = returns[i].intensity, .colored = false});
+    } else {
+      cloud.push_back(colored(returns[i], frame));
+    }
+  }
+  return cloud;
 }
 
 double mean_inverse_depth(const std::vector<SelectedPoint>& points) {
@@ -95,19 +113,23 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
   keyframe->pyramid = tracked.pyramid;
   keyframe->points = select_points(returns, frame.grey, camera_, config_.points);
   keyframe->mean_inverse_depth = mean_inverse_depth(keyframe->points);
-  for (int level = 0; level < tracked.pyramid.levels(); ++level) {
-    keyframe->patches.push_back(make_patches(tracked.pyramid, level, camera_, keyframe->points,
-                                             config_.photometry.gradient_weight_constant));
-  }
   if (config_.photometry.weigh_down_strangers && window_.size() > 0 &&
       tracked.outcome.status == FrameOutcome::Status::kTracked &&
       window_.latest().sequence == tracked.outcome.keyframe_sequence) {
-    weigh_down_strangers(keyframe->patches, window_.latest().pyramid.level(0), camera_,
+    weigh_down_strangers(keyframe->points, patches_of(*keyframe, 0),
+                         window_.latest().pyramid.level(0), camera_,
                          tracked.outcome.tracking.T_keyframe_camera);
   }
-  keyframe->cloud_camera.reserve(returns.size());
-  for (const CameraReturn& r : returns) keyframe->cloud_camera.push_back(colored(r, frame));
+  for (int level = 0; level < tracked.pyramid.levels(); ++level) {
+    keyframe->patches.push_back(patches_of(*keyframe, level));
+  }
+  keyframe->cloud_camera = colored(returns, camera_, frame);
   return keyframe;
+}
+
+PatchSet WindowStage::patches_of(const Keyframe& keyframe, int level) const {
+  return make_patches(keyframe.pyramid, level, camera_, keyframe.points,
+                      config_.photometry.gradient_weight_constant);
 }
 
 void WindowStage::retire_oldest() {

@@ -40,6 +40,7 @@ class WindowStage {
  private:
   std::unique_ptr<Keyframe> make_keyframe(const SynchronizedFrame& frame,
                                           const TrackedFrame& tracked);
+  PatchSet patches_of(const Keyframe& keyframe, int level) const;
   Eigen::Isometry3d pose_of(const TrackedFrame& tracked);
   void retire_oldest();
 

@@ -46,8 +46,8 @@ ReplayTrajectories replay_deterministic(FrameSource& source, Odometry& odometry,
   ReplayTrajectories result{.odometry = trajectory.poses()};
   if (loops != nullptr) {
     loops->finish();
-    result.corrected_keyframes = loops->poses();
-    result.corrected = trajectory.poses(result.corrected_keyframes);
+    result.placed = loops->placed_keyframes();
+    result.corrected = trajectory.poses(loops->poses());
   }
   return result;
 }

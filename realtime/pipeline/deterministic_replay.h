@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -23,8 +22,7 @@ struct ReplayCallbacks {
 struct ReplayTrajectories {
   std::vector<TrajectoryPose> odometry;   // as the keyframes left the window
   std::vector<TrajectoryPose> corrected;  // as the pose graph has them; empty without a LoopCloser
-  // T_world_keyframe by sequence, likewise.
-  std::map<std::uint64_t, Eigen::Isometry3d> corrected_keyframes;
+  std::vector<PlacedKeyframe> placed;     // likewise, with where their clouds are
 };
 
 // Runs the stages on one schedule, without threads or a wall clock: the same frames give the same

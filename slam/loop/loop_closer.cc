@@ -44,22 +44,24 @@ Matrix6d believable(const Matrix6d& information, double step_m, const LoopConfig
 }  // namespace
 
 struct LoopCloser::State {
-  // All that is kept of a keyframe: 160 KB of an image of 800 x 600, three quarters of it the
-  // image. Features are found again when they are asked for.
+  // All that is kept in memory of a keyframe, some 15 KB with what database and graph know of it:
+  // nearly all of it its words. Features are found again when they are asked for.
   struct Place {
+    std::uint32_t session = 0;
     std::uint64_t sequence = 0;
     std::size_t submap = 0;  // the first place of its sub-map
     Eigen::Isometry3d T_odometry_camera = Eigen::Isometry3d::Identity();
     CameraIntrinsics camera;  // at the level of the image
-    GreyImage image;
     BagOfWords bag;
-    std::vector<Eigen::Vector3f> cloud_camera;
+    std::size_t stored = 0;  // its image and cloud
   };
 
-  State(const OdometryConfig& settings, std::shared_ptr<const Vocabulary> words)
+  State(const OdometryConfig& settings, std::shared_ptr<const Vocabulary> words,
+        std::shared_ptr<KeyframeStore> bulk)
       : odometry(settings),
         config(settings.loop),
         vocabulary(std::move(words)),
+        store(std::move(bulk)),
         database(vocabulary->words()),
         filter(config.consistent_queries),
         graph(config.dcs_phi),
@@ -68,14 +70,17 @@ struct LoopCloser::State {
   OdometryConfig odometry;
   LoopConfig config;
   std::shared_ptr<const Vocabulary> vocabulary;
+  std::shared_ptr<KeyframeStore> store;
   PlaceDatabase database;
   CandidateFilter filter;
   LoopGraph graph;
   JoinEvidence evidence;  // for sub-maps that nothing connects
   std::vector<Place> places;
+  std::size_t earlier = 0;                            // the first of them are an earlier map's
+  std::uint32_t session = 0;                          // this one
   std::optional<RetiredKeyframe::Successor> to_next;  // of the last place
   std::size_t asked = 0;                              // places that were asked about
-  std::vector<LoopClosure> found;                     // also those taken out since
+  std::vector<SeenAgain> found;                       // also those taken out since
   LoopStatistics statistics;
 
   void remember(const RetiredKeyframe& keyframe, const CameraIntrinsics& camera);
@@ -85,7 +90,8 @@ struct LoopCloser::State {
   bool join(const SeenAgain& loop);
   bool continues(const RetiredKeyframe& keyframe) const;
   void put_in_graph(const RetiredKeyframe& keyframe, bool begins_submap);
-  void keep(const SeenAgain& loop);
+  bool in_earlier_map(std::size_t index) const;
+  bool reaches(std::size_t part) const;
   std::pair<std::size_t, std::size_t> neighbourhood(std::size_t index) const;
   double similarity_with_neighbours(std::size_t index) const;
   LoopView view_of(std::size_t index) const;
@@ -93,13 +99,15 @@ struct LoopCloser::State {
 
 void LoopCloser::State::remember(const RetiredKeyframe& keyframe, const CameraIntrinsics& camera) {
   const int level = std::min(config.image_level, keyframe.pyramid.levels() - 1);
-  Place place{.sequence = keyframe.sequence,
+  Place place{.session = session,
+              .sequence = keyframe.sequence,
               .T_odometry_camera = keyframe.T_world_camera,
-              .camera = CameraModel(camera).at_level(level).intrinsics(),
-              .image = keyframe.pyramid.level(level),
-              .cloud_camera = thinned_cloud(keyframe.cloud_camera)};
-  const OrbFeatures features = orb_features(place.image, {.features = config.features});
+              .camera = CameraModel(camera).at_level(level).intrinsics()};
+  const GreyImage& image = keyframe.pyramid.level(level);
+  const OrbFeatures features = orb_features(image, {.features = config.features});
   place.bag = vocabulary->bag_of(features.descriptors);
+  place.bag.shrink_to_fit();
+  place.stored = store->put({.image = image, .cloud_camera = keyframe.cloud_camera});
   database.add(place.bag);
   place.submap = continues(keyframe) ? places.back().submap : places.size();
   put_in_graph(keyframe, place.submap == places.size());
@@ -116,7 +124,7 @@ bool LoopCloser::State::continues(const RetiredKeyframe& keyframe) const {
 }
 
 void LoopCloser::State::put_in_graph(const RetiredKeyframe& keyframe, bool begins_submap) {
-  if (places.empty()) {
+  if (places.size() == earlier) {
     graph.begin_submap(keyframe.T_world_camera);
     return;
   }
@@ -150,15 +158,21 @@ double LoopCloser::State::similarity_with_neighbours(std::size_t index) const {
 
 LoopView LoopCloser::State::view_of(std::size_t index) const {
   const Place& place = places[index];
+  LoopView view;
+  std::vector<std::vector<Eigen::Vector3f>> points;
   std::vector<NearbyCloud> clouds;
   const auto [first, last] = neighbourhood(index);
   for (std::size_t other = first; other <= last; ++other) {
-    clouds.push_back({place.T_odometry_camera.inverse() * places[other].T_odometry_camera,
-                      places[other].cloud_camera});
+    auto bulk = store->get(places[other].stored);
+    if (!bulk) continue;
+    points.push_back(thinned_cloud(bulk->cloud_camera));
+    clouds.push_back(
+        {place.T_odometry_camera.inverse() * places[other].T_odometry_camera, points.back()});
+    if (other == index) view.image = std::move(bulk->image);
   }
-  return {.image = place.image,
-          .returns = integrated_depth(clouds, CameraModel(place.camera)),
-          .features = orb_features(place.image, {.features = config.features})};
+  view.returns = integrated_depth(clouds, CameraModel(place.camera));
+  view.features = orb_features(view.image, {.features = config.features});
+  return view;
 }
 
 bool LoopCloser::State::verify(std::size_t index, std::size_t candidate) {
@@ -179,7 +193,7 @@ bool LoopCloser::State::believe(const SeenAgain& loop) {
     ++statistics.contradicted;
     return false;
   }
-  keep(loop);
+  found.push_back(loop);
   return true;
 }
 
@@ -191,15 +205,22 @@ bool LoopCloser::State::join(const SeenAgain& loop) {
   for (const SeenAgain& one : agreeing) edges.push_back(one.edge());
   if (!graph.join(edges)) return false;
   ++statistics.submaps_joined;
-  for (const SeenAgain& one : agreeing) keep(one);
+  found.insert(found.end(), agreeing.begin(), agreeing.end());
   evidence.drop_connected(graph);
   return true;
 }
 
-void LoopCloser::State::keep(const SeenAgain& loop) {
-  found.push_back({.candidate = places[loop.candidate].sequence,
-                   .current = places[loop.current].sequence,
-                   .check = loop.check});
+// Whether its pose is in the frame of the earlier map: one of its own, or joined to it.
+bool LoopCloser::State::in_earlier_map(std::size_t index) const {
+  return graph.part_of(index) < earlier;
+}
+
+// Whether a keyframe of this session is in the part.
+bool LoopCloser::State::reaches(std::size_t part) const {
+  for (std::size_t i = earlier; i < places.size(); ++i) {
+    if (graph.part_of(i) == part) return true;
+  }
+  return false;
 }
 
 bool LoopCloser::State::ask(std::size_t index) {
@@ -217,8 +238,11 @@ bool LoopCloser::State::ask(std::size_t index) {
   return false;
 }
 
-LoopCloser::LoopCloser(const OdometryConfig& config, std::shared_ptr<const Vocabulary> vocabulary)
-    : state_(std::make_unique<State>(config, std::move(vocabulary))) {}
+LoopCloser::LoopCloser(const OdometryConfig& config, std::shared_ptr<const Vocabulary> vocabulary,
+                       std::shared_ptr<KeyframeStore> store)
+    : state_(std::make_unique<State>(
+          config, std::move(vocabulary),
+          store ? std::move(store) : std::make_shared<MemoryKeyframeStore>())) {}
 
 LoopCloser::~LoopCloser() = default;
 
@@ -241,6 +265,41 @@ bool LoopCloser::finish() {
   return moved;
 }
 
+void LoopCloser::resume(KnownPlaces earlier) {
+  State& s = *state_;
+  PoseGraph graph{.edges = std::move(earlier.edges)};
+  for (KnownKeyframe& keyframe : earlier.keyframes) {
+    graph.T_world_node.push_back(keyframe.T_map_camera);
+    s.database.add(keyframe.bag);
+    s.session = std::max(s.session, keyframe.session + 1);
+    s.places.push_back({.session = keyframe.session,
+                        .sequence = keyframe.sequence,
+                        .submap = keyframe.submap,
+                        .T_odometry_camera = keyframe.T_odometry_camera,
+                        .camera = keyframe.camera,
+                        .bag = std::move(keyframe.bag),
+                        .stored = s.places.size()});
+  }
+  s.graph.resume(std::move(graph));
+  s.earlier = s.asked = s.places.size();
+}
+
+KnownPlaces LoopCloser::known() const {
+  const State& s = *state_;
+  KnownPlaces known{.edges = s.graph.graph().edges};
+  for (std::size_t i = 0; i < s.places.size(); ++i) {
+    const State::Place& place = s.places[i];
+    known.keyframes.push_back({.session = place.session,
+                               .sequence = place.sequence,
+                               .submap = place.submap,
+                               .camera = place.camera,
+                               .T_odometry_camera = place.T_odometry_camera,
+                               .T_map_camera = s.graph.graph().T_world_node[i],
+                               .bag = place.bag});
+  }
+  return known;
+}
+
 Eigen::Isometry3d LoopCloser::T_map_odometry() const {
   const State& s = *state_;
   if (s.found.empty()) return Eigen::Isometry3d::Identity();
@@ -253,13 +312,31 @@ bool LoopCloser::placed() const {
   return s.places.empty() || s.graph.connected(0, s.places.size() - 1);
 }
 
-std::map<std::uint64_t, Eigen::Isometry3d> LoopCloser::poses() const {
+std::vector<PlacedKeyframe> LoopCloser::placed_keyframes() const {
   const State& s = *state_;
   const bool as_odometry = s.found.empty();  // to the last digit
-  std::map<std::uint64_t, Eigen::Isometry3d> result;
+  std::vector<PlacedKeyframe> result;
+  std::map<std::size_t, bool> reached;
   for (std::size_t i = 0; i < s.places.size(); ++i) {
-    result[s.places[i].sequence] =
-        as_odometry ? s.places[i].T_odometry_camera : s.graph.graph().T_world_node[i];
+    const State::Place& place = s.places[i];
+    const bool own = i >= s.earlier;
+    const std::size_t part = s.graph.part_of(i);
+    if (!own && !reached.contains(part)) reached[part] = s.reaches(part);
+    if (!own && !reached[part]) continue;
+    result.push_back({.sequence = place.sequence,
+                      .in_earlier_map = !own,
+                      .stored = place.stored,
+                      .camera = place.camera,
+                      .T_world_camera = own && as_odometry ? place.T_odometry_camera
+                                                           : s.graph.graph().T_world_node[i]});
+  }
+  return result;
+}
+
+std::map<std::uint64_t, Eigen::Isometry3d> LoopCloser::poses() const {
+  std::map<std::uint64_t, Eigen::Isometry3d> result;
+  for (const PlacedKeyframe& keyframe : placed_keyframes()) {
+    if (!keyframe.in_earlier_map) result[keyframe.sequence] = keyframe.T_world_camera;
   }
   return result;
 }
@@ -267,11 +344,12 @@ std::map<std::uint64_t, Eigen::Isometry3d> LoopCloser::poses() const {
 std::vector<Submap> LoopCloser::submaps() const {
   const State& s = *state_;
   std::vector<Submap> result;
-  for (std::size_t i = 0; i < s.places.size(); ++i) {
+  for (std::size_t i = s.earlier; i < s.places.size(); ++i) {
     if (s.places[i].submap == i) result.push_back({.first_keyframe = s.places[i].sequence});
     ++result.back().keyframes;
     const std::size_t oldest = s.graph.part_of(i);
     result.back().part = s.places[s.places[oldest].submap].sequence;
+    result.back().in_earlier_map = s.in_earlier_map(i);
   }
   return result;
 }
@@ -279,12 +357,15 @@ std::vector<Submap> LoopCloser::submaps() const {
 std::vector<LoopClosure> LoopCloser::loops() const {
   const State& s = *state_;
   std::vector<LoopClosure> standing;
-  for (const LoopClosure& loop : s.found) {
+  for (const SeenAgain& loop : s.found) {
     const bool stands = std::ranges::any_of(s.graph.graph().edges, [&](const PoseEdge& edge) {
-      return edge.loop && s.places[edge.from].sequence == loop.current &&
-             s.places[edge.to].sequence == loop.candidate;
+      return edge.loop && edge.from == loop.current && edge.to == loop.candidate;
     });
-    if (stands) standing.push_back(loop);
+    if (!stands) continue;
+    standing.push_back({.candidate = s.places[loop.candidate].sequence,
+                        .current = s.places[loop.current].sequence,
+                        .check = loop.check,
+                        .in_earlier_map = loop.candidate < s.earlier});
   }
   return standing;
 }

@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "slam/loop/candidate_filter.h"
+#include "slam/loop/known_places.h"
 #include "slam/loop/loop_config.h"
 #include "slam/loop/loop_graph.h"
 #include "slam/loop/loop_verification.h"
 #include "slam/loop/place_database.h"
 #include "slam/loop/vocabulary.h"
+#include "slam/map/keyframe_store.h"
 #include "slam/odometry.h"
 
 namespace sparsight {
@@ -21,6 +23,16 @@ struct LoopClosure {
   std::uint64_t candidate = 0;  // sequence numbers of the two keyframes, the earlier first
   std::uint64_t current = 0;
   LoopCheck check;
+  bool in_earlier_map = false;  // the candidate: its sequence is then that of another session
+};
+
+// Where the graph has a keyframe.
+struct PlacedKeyframe {
+  std::uint64_t sequence = 0;
+  bool in_earlier_map = false;  // which stands in this one's world once a loop has joined them
+  std::size_t stored = 0;       // its number in the store
+  CameraIntrinsics camera;      // of the stored image
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
 };
 
 // Keyframes between which odometry was never interrupted.
@@ -30,6 +42,7 @@ struct Submap {
   // The first keyframe of the oldest sub-map that loops connect it with: its own if there is none.
   // Sub-maps of different parts stand to each other as odometry guessed.
   std::uint64_t part = 0;
+  bool in_earlier_map = false;  // loops connect it with that; its poses are in its frame
 };
 
 // What became of the queries, for people.
@@ -48,8 +61,16 @@ struct LoopStatistics {
 // of tracking waits for it.
 class LoopCloser {
  public:
-  LoopCloser(const OdometryConfig& config, std::shared_ptr<const Vocabulary> vocabulary);
+  // Images and clouds go to the store, which is in memory if none is given.
+  LoopCloser(const OdometryConfig& config, std::shared_ptr<const Vocabulary> vocabulary,
+             std::shared_ptr<KeyframeStore> store = nullptr);
   ~LoopCloser();
+
+  // Goes on in an earlier map, whose keyframes are in the store already, in their order. Before the
+  // first add(); what is added stands in a sub-map of its own until loops join it to the map.
+  void resume(KnownPlaces earlier);
+  // What the next session needs to do so: all that is known, the earlier map's included.
+  KnownPlaces known() const;
 
   // The next keyframe of the odometry, seen through `camera`. It is asked about once its successors
   // have come, whose depth it borrows; without `search`, later still. True if poses have moved.
@@ -63,9 +84,12 @@ class LoopCloser {
   // Whether the newest keyframe is connected with the first: if not, where its sub-map stands is a
   // guess.
   bool placed() const;
-  // The poses of all keyframes so far, by their sequence.
+  // The poses of this session's keyframes so far, by their sequence.
   std::map<std::uint64_t, Eigen::Isometry3d> poses() const;
-  // In their order; all that was seen is in them.
+  // The same with what else the map needs to know of them, in the order they were added; first
+  // those of the earlier map that loops connect this session with.
+  std::vector<PlacedKeyframe> placed_keyframes() const;
+  // This session's, in their order; all that it saw is in them.
   std::vector<Submap> submaps() const;
   // Loops that stand, in the order they were found.
   std::vector<LoopClosure> loops() const;

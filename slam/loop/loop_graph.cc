@@ -37,6 +37,11 @@ void move_onto_other(PoseGraph& graph, const std::vector<std::size_t>& part, con
 
 }  // namespace
 
+void LoopGraph::resume(PoseGraph graph) {
+  graph_ = std::move(graph);
+  part_ = connected_parts(graph_);
+}
+
 void LoopGraph::begin_submap(const Eigen::Isometry3d& T_world_keyframe) {
   part_.push_back(graph_.T_world_node.size());
   graph_.T_world_node.push_back(T_world_keyframe);

@@ -15,6 +15,8 @@ class LoopGraph {
  public:
   explicit LoopGraph(double dcs_phi) : dcs_phi_(dcs_phi) {}
 
+  // Goes on from an earlier graph; before anything else.
+  void resume(PoseGraph graph);
   // The first keyframe of a sub-map, put anywhere: no edge leads to it.
   void begin_submap(const Eigen::Isometry3d& T_world_keyframe);
   // The next keyframe, where the edge to it from the one before has it.

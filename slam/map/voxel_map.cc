@@ -19,26 +19,31 @@ std::uint64_t hash_of(const Eigen::Vector3i& voxel) {
   return hash ^ (hash >> 33);
 }
 
+bool better(const MapPoint& a, const MapPoint& b) {
+  return a.colored != b.colored ? a.colored : a.range_m < b.range_m;
+}
+
 }  // namespace
 
 VoxelMap::VoxelMap(const VoxelMapConfig& config)
     : config_(config), voxel_m_(config.voxel_m), slots_(1024, kEmpty) {}
 
-void VoxelMap::add(const RetiredKeyframe& keyframe) {
-  const Eigen::Isometry3f T_world_camera = keyframe.T_world_camera.cast<float>();
-  for (const CloudPoint& seen : keyframe.cloud_camera) {
+void VoxelMap::add(const Eigen::Isometry3d& T_world_camera,
+                   std::span<const CloudPoint> cloud_camera) {
+  const Eigen::Isometry3f T = T_world_camera.cast<float>();
+  for (const CloudPoint& seen : cloud_camera) {
     const float range_m = seen.p_camera.norm();
     if (!(range_m <= static_cast<float>(config_.max_range_m))) continue;  // nor NaN
-    const Eigen::Vector3f p_world = T_world_camera * seen.p_camera;
+    const Eigen::Vector3f p_world = T * seen.p_camera;
     if (!(p_world.cwiseAbs().maxCoeff() <= kLargestCoordinate_m)) continue;
-    insert({p_world, seen.intensity, range_m, seen.rgb});
+    insert({p_world, seen.intensity, range_m, seen.rgb, seen.colored});
   }
 }
 
 void VoxelMap::insert(const MapPoint& point) {
   std::uint32_t& slot = slots_[slot_of(voxel_of(point))];
   if (slot != kEmpty) {
-    if (point.range_m < points_[slot].range_m) points_[slot] = point;
+    if (better(point, points_[slot])) points_[slot] = point;
     return;
   }
   slot = static_cast<std::uint32_t>(points_.size());

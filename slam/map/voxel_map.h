@@ -1,12 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "slam/odometry.h"
+#include "slam/keyframe.h"
 
 namespace sparsight {
 
@@ -21,15 +22,17 @@ struct MapPoint {
   float intensity = 0.0F;                             // as the LiDAR gave it
   float range_m = 0.0F;                               // from the camera that saw it
   std::array<std::uint8_t, 3> rgb{};
+  bool colored = true;  // false: hidden from the camera that was there; rgb is black
 };
 
-// The clouds of retired keyframes in the world, each place once: of all returns in a voxel the one
-// seen from nearest stays, as its position and its colour are the best. Thread-bound.
+// The clouds of keyframes in the world, each place once: of all returns in a voxel one stays, as it
+// was measured. Those with a colour of their own go before those without, then the one seen from
+// nearest, as its position and its colour are the best. Thread-bound.
 class VoxelMap {
  public:
   explicit VoxelMap(const VoxelMapConfig& config);
 
-  void add(const RetiredKeyframe& keyframe);
+  void add(const Eigen::Isometry3d& T_world_camera, std::span<const CloudPoint> cloud_camera);
 
   // In the order in which their voxels were first seen.
   const std::vector<MapPoint>& points() const { return points_; }

@@ -11,6 +11,7 @@ struct SelectedPoint {
   // The surface around it: inverse depth is d + slope . (pixel offset), 1/(m px); a plane is
   // exactly affine in inverse depth. Zero where the neighbourhood does not tell.
   Eigen::Vector2f inverse_depth_slope = Eigen::Vector2f::Zero();
+  float weight = 1.0F;  // of its patch's residuals
 };
 
 }  // namespace sparsight

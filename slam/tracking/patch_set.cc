@@ -1,6 +1,8 @@
 #include "slam/tracking/patch_set.h"
 
+#include <Eigen/LU>
 #include <cmath>
+#include <optional>
 
 #include "slam/image/interpolation.h"
 
@@ -19,28 +21,71 @@ float gradient_weight(const ImageSample& s, double constant) {
   return c2 / (c2 + s.du * s.du + s.dv * s.dv);
 }
 
-void append(PatchSet& set, const Entry& entry) {
-  set.x.push_back(entry.p_camera.x());
-  set.y.push_back(entry.p_camera.y());
-  set.z.push_back(entry.p_camera.z());
-  set.intensity.push_back(entry.intensity);
-  set.weight.push_back(entry.weight);
+// Of entries that count for nothing.
+PatchSet empty_set(std::size_t patches) {
+  const std::size_t blocks = (patches * kPatternSize + PatchSet::kBlock - 1) / PatchSet::kBlock;
+  const std::size_t entries = blocks * PatchSet::kBlock;
+  PatchSet set;
+  set.patches = patches;
+  for (std::vector<float>* column : {&set.x, &set.y, &set.intensity, &set.weight}) {
+    column->assign(entries, 0.0F);
+  }
+  set.z.assign(entries, 1.0F);
+  return set;
+}
+
+void put(PatchSet& set, std::size_t at, const Entry& entry) {
+  set.x[at] = entry.p_camera.x();
+  set.y[at] = entry.p_camera.y();
+  set.z[at] = entry.p_camera.z();
+  set.intensity[at] = entry.intensity;
+  set.weight[at] = entry.weight;
+}
+
+// A point at one level: where the pattern is centred, and how rays turn with pixels there.
+struct Centre {
+  Eigen::Vector2d pixel;
+  Eigen::Vector2d normalized;
+  Eigen::Matrix2d d_normalized_d_pixel;
+};
+
+std::optional<Centre> centre_of(const SelectedPoint& point, const CameraModel& camera) {
+  const Eigen::Vector3d p = point.p_camera.cast<double>();
+  Centre centre;
+  if (!camera.project(p, centre.pixel)) return std::nullopt;
+  centre.normalized = p.head<2>() / p.z();
+  centre.d_normalized_d_pixel = camera.d_pixel_d_normalized(centre.normalized).inverse();
+  return centre;
+}
+
+// Normalised coordinates of a pixel beside the centre: by the derivative there, and a step of
+// Newton's method with the same, which leaves less than a thousandth of a pixel.
+std::optional<Eigen::Vector2d> ray_beside(const Centre& centre, const CameraModel& camera,
+                                          const Eigen::Vector2d& offset) {
+  const Eigen::Vector2d near = centre.normalized + centre.d_normalized_d_pixel * offset;
+  Eigen::Vector2d pixel;
+  if (!camera.project(near.homogeneous(), pixel)) return std::nullopt;
+  return near - centre.d_normalized_d_pixel * (pixel - centre.pixel - offset);
 }
 
 // The pattern pixel's own point: on its ray, at the depth of the surface there.
 Entry entry_at(const GreyImage& image, const CameraModel& camera, const SelectedPoint& point,
-               const Eigen::Vector2d& pixel, const Eigen::Vector2d& offset_fine,
+               const Centre& centre, const Eigen::Vector2d& offset, double fine_pixels_per_pixel,
                double gradient_weight_constant) {
   Entry entry;
   const float inverse_depth =
-      1.0F / point.p_camera.z() + point.inverse_depth_slope.dot(offset_fine.cast<float>());
+      1.0F / point.p_camera.z() +
+      point.inverse_depth_slope.dot((fine_pixels_per_pixel * offset).cast<float>());
+  const Eigen::Vector2d pixel = centre.pixel + offset;
   const auto u = static_cast<float>(pixel.x());
   const auto v = static_cast<float>(pixel.y());
   if (!(inverse_depth > 0.0F) || !can_sample(image.width, image.height, u, v)) return entry;
   const ImageSample s = sample(image, u, v);
-  entry.p_camera = camera.unproject(pixel).cast<float>() / inverse_depth;
+  const std::optional<Eigen::Vector2d> ray = ray_beside(centre, camera, offset);
+  if (!ray) return entry;
+  entry.p_camera = ray->homogeneous().cast<float>() / inverse_depth;
   entry.intensity = s.value;
-  entry.weight = gradient_weight(s, gradient_weight_constant);
+  entry.weight = point.weight * gradient_weight(s, gradient_weight_constant);
   return entry;
 }
 
@@ -50,19 +95,17 @@ PatchSet make_patches(const ImagePyramid& pyramid, int level, const CameraModel&
                       const std::vector<SelectedPoint>& points, double gradient_weight_constant) {
   const CameraModel level_camera = camera.at_level(level);
   const double fine_pixels_per_pixel = std::exp2(level);
-  PatchSet set;
-  set.patches = points.size();
-  for (const SelectedPoint& point : points) {
-    Eigen::Vector2d centre;
-    const bool projects = level_camera.project(point.p_camera.cast<double>(), centre);
-    for (const PatternOffset& pattern : kPattern) {
-      const Eigen::Vector2d offset(pattern.u, pattern.v);
-      append(set, projects ? entry_at(pyramid.level(level), level_camera, point, centre + offset,
-                                      fine_pixels_per_pixel * offset, gradient_weight_constant)
-                           : Entry{});
+  PatchSet set = empty_set(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::optional<Centre> centre = centre_of(points[i], level_camera);
+    if (!centre) continue;
+    for (std::size_t k = 0; k < kPatternSize; ++k) {
+      const Eigen::Vector2d offset(kPattern[k].u, kPattern[k].v);
+      put(set, i * kPatternSize + k,
+          entry_at(pyramid.level(level), level_camera, points[i], *centre, offset,
+                   fine_pixels_per_pixel, gradient_weight_constant));
     }
   }
-  while (set.entries() % PatchSet::kBlock != 0) append(set, Entry{});
   return set;
 }
 

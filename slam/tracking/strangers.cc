@@ -12,17 +12,14 @@ constexpr float kStrangersWeight = 0.1F;
 
 }  // namespace
 
-void weigh_down_strangers(std::vector<PatchSet>& patches, const GreyImage& earlier,
-                          const CameraModel& camera, const Eigen::Isometry3d& T_earlier_keyframe) {
+void weigh_down_strangers(std::vector<SelectedPoint>& points, const PatchSet& patches,
+                          const GreyImage& earlier, const CameraModel& camera,
+                          const Eigen::Isometry3d& T_earlier_keyframe) {
   Linearization linearization;
   const Brightness same;  // agreement does not depend on it
-  linearize(patches.front(), earlier, camera, T_earlier_keyframe, same, linearization);
-  for (const std::size_t stranger : missing_patches(patches.front(), linearization, same)) {
-    for (PatchSet& level : patches) {
-      for (std::size_t i = stranger * kPatternSize; i < (stranger + 1) * kPatternSize; ++i) {
-        level.weight[i] *= kStrangersWeight;
-      }
-    }
+  linearize(patches, earlier, camera, T_earlier_keyframe, same, linearization);
+  for (const std::size_t stranger : missing_patches(patches, linearization, same)) {
+    points[stranger].weight = kStrangersWeight;
   }
 }
 

@@ -5,17 +5,19 @@
 
 #include "hal/image.h"
 #include "slam/geometry/camera_model.h"
+#include "slam/points/selected_point.h"
 #include "slam/tracking/patch_set.h"
 
 namespace sparsight {
 
-// A new keyframe's patches that an earlier image ought to show and does not: most of them lie on
+// A new keyframe's points that an earlier image ought to show and does not: most of them lie on
 // what moves by itself, a car beside or a bus before the rig. They keep a small part of their
-// weight, at all levels: no moving majority of an image carries the pose away with it, and should
-// the pose have been wrong, so that the scene looked strange, the scene still counts.
+// weight: no moving majority of an image carries the pose away with it, and should the pose have
+// been wrong, so that the scene looked strange, the scene still counts.
 //
-// `patches` per level, finest first; `earlier` at the finest level; T_earlier_keyframe as tracked.
-void weigh_down_strangers(std::vector<PatchSet>& patches, const GreyImage& earlier,
-                          const CameraModel& camera, const Eigen::Isometry3d& T_earlier_keyframe);
+// `patches` of the points, and `earlier`, at the finest level; T_earlier_keyframe as tracked.
+void weigh_down_strangers(std::vector<SelectedPoint>& points, const PatchSet& patches,
+                          const GreyImage& earlier, const CameraModel& camera,
+                          const Eigen::Isometry3d& T_earlier_keyframe);
 
 }  // namespace sparsight

@@ -20,6 +20,15 @@ void eliminate_brightness(const NormalEquations& n, double information_scale, Pa
 
 }  // namespace
 
+Alignment PairTerm::moved(const Vector6d& xi) const {
+  const Eigen::Vector2d brightness = brightness_step + d_brightness_d_pose * xi;
+  Alignment to = at;
+  to.T_camera_keyframe = exp_se3(xi) * at.T_camera_keyframe;
+  to.brightness.gain += brightness.x();
+  to.brightness.offset += brightness.y();
+  return to;
+}
+
 PairTerm pair_term(const Keyframe& host, const Keyframe& target, const CameraModel& camera,
                    const Alignment& start, const PhotometryConfig& photometry,
                    AlignmentWorkspace& workspace) {

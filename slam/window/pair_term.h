@@ -19,6 +19,12 @@ struct PairTerm {
   // Brightness follows the pose: d_brightness = brightness_step + d_brightness_d_pose * xi.
   Eigen::Vector2d brightness_step = Eigen::Vector2d::Zero();
   Eigen::Matrix<double, 2, 6> d_brightness_d_pose = Eigen::Matrix<double, 2, 6>::Zero();
+
+  // The term after the left increment xi of T_target_host, to second order.
+  Vector6d gradient_at(const Vector6d& xi) const { return b + H * xi; }
+  double energy_at(const Vector6d& xi) const { return energy + xi.dot(b + 0.5 * (H * xi)); }
+  // Where a look from there starts.
+  Alignment moved(const Vector6d& xi) const;
 };
 
 // Linearises at start.T_camera_keyframe, with sigma estimated there; the linearisation is left in

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kFirstDamping = 1e-3;
 constexpr double kMostDamping = 1e3;
+constexpr double kMidGrey = 128.0;
+constexpr double kRelinearizationGrey = 0.5;
 
 const Eigen::Isometry3d& linearization_point(const Keyframe& keyframe) {
   return keyframe.T_world_camera_first ? *keyframe.T_world_camera_first : keyframe.T_world_camera;
@@ -33,47 +35,68 @@ WindowOptimizer::WindowOptimizer(const CameraModel& camera, const WindowConfig& 
     : camera_(camera), config_(config), photometry_(photometry) {}
 
 void WindowOptimizer::add(std::unique_ptr<Keyframe> keyframe) {
+  // The one before is no longer tracked against: the window looks at the finest level only.
+  if (size() > 0) latest().patches.resize(1);
   keyframes_.push_back(std::move(keyframe));
-  pairs_.reset();
   Quadratic grown(size());
   grown.H.topLeftCorner(prior_.H.rows(), prior_.H.cols()) = prior_.H;
   grown.b.head(prior_.b.size()) = prior_.b;
   prior_ = std::move(grown);
 }
 
-Alignment WindowOptimizer::alignment_of(int host, int target) const {
-  Alignment at;
-  at.T_camera_keyframe = keyframe(target).T_world_camera.inverse() * keyframe(host).T_world_camera;
-  const auto known = known_.find({keyframe(host).sequence, keyframe(target).sequence});
-  if (known != known_.end()) {
-    at.brightness = known->second.brightness;
-    at.sigma_grey = known->second.sigma_grey;
+Eigen::Isometry3d WindowOptimizer::T_target_host(int host, int target) const {
+  return keyframe(target).T_world_camera.inverse() * keyframe(host).T_world_camera;
+}
+
+PairTerm WindowOptimizer::linearize(int host, int target, const Alignment& start) {
+  Alignment at = start;
+  at.T_camera_keyframe = T_target_host(host, target);
+  return pair_term(keyframe(host), keyframe(target), camera_, at, photometry_, workspace_);
+}
+
+void WindowOptimizer::add_if_covisible(int host, int target) {
+  const auto points = static_cast<double>(keyframe(host).points.size());
+  const int enough =
+      std::max(config_.min_points, static_cast<int>(config_.min_visible_ratio * points));
+  Pair pair{host, target, linearize(host, target, {})};
+  const PatchAgreement agreement =
+      patch_agreement(keyframe(host).patches.front(), workspace_.current, pair.term.at.brightness);
+  if (agreement.visible_patches < enough) return;
+  if (agreement.found_share < config_.min_found_share) return;
+  pairs_.push_back(std::move(pair));
+}
+
+void WindowOptimizer::update_pairs() {
+  for (Pair& pair : pairs_) {
+    const Vector6d xi = moved_since_linearized(pair);
+    if (!other_camera_ && !outdated(pair, xi)) continue;
+    pair.term = linearize(pair.host, pair.target, pair.term.moved(xi));
   }
-  return at;
-}
-
-PairTerm WindowOptimizer::linearize_pair(int host, int target) {
-  return pair_term(keyframe(host), keyframe(target), camera_, alignment_of(host, target),
-                   photometry_, workspace_);
-}
-
-std::vector<WindowOptimizer::Pair> WindowOptimizer::covisible_pairs() {
-  std::vector<Pair> pairs;
-  for (int host = 0; host < size(); ++host) {
-    const int enough = std::max(
-        config_.min_points, static_cast<int>(config_.min_visible_ratio *
-                                             static_cast<double>(keyframe(host).points.size())));
-    for (int target = 0; target < size(); ++target) {
-      if (host == target) continue;
-      Pair pair{host, target, linearize_pair(host, target)};
-      const PatchAgreement agreement = patch_agreement(keyframe(host).patches.front(),
-                                                       workspace_.current, pair.term.at.brightness);
-      if (agreement.visible_patches < enough) continue;
-      if (agreement.found_share < config_.min_found_share) continue;
-      pairs.push_back(std::move(pair));
+  other_camera_ = false;
+  for (; looked_at_ < size(); ++looked_at_) {
+    for (int earlier = 0; earlier < looked_at_; ++earlier) {
+      add_if_covisible(earlier, looked_at_);
+      add_if_covisible(looked_at_, earlier);
     }
   }
-  return pairs;
+}
+
+Vector6d WindowOptimizer::moved_since_linearized(const Pair& pair) const {
+  return log_se3(T_target_host(pair.host, pair.target) * pair.term.at.T_camera_keyframe.inverse());
+}
+
+double WindowOptimizer::pixels_moved(const Vector6d& xi, const Keyframe& keyframe) const {
+  return camera_.intrinsics().fx *
+         (xi.head<3>().norm() + xi.tail<3>().norm() * keyframe.mean_inverse_depth);
+}
+
+bool WindowOptimizer::outdated(const Pair& pair, const Vector6d& xi) const {
+  if (pixels_moved(xi, keyframe(pair.host)) > config_.relinearization_px) return true;
+  const Brightness then = pair.term.at.brightness;
+  const Brightness now = pair.term.moved(xi).brightness;
+  const double gain = now.gain - then.gain;
+  const double mid_grey = kMidGrey * gain + now.offset - then.offset;
+  return std::max(std::abs(mid_grey), kMidGrey * std::abs(gain)) > kRelinearizationGrey;
 }
 
 // xi = Ad(T_target_host) eta_host - eta_target. The adjoint is taken at the first estimates of
@@ -107,8 +130,9 @@ Quadratic WindowOptimizer::energy_about_current(const std::vector<Pair>& pairs) 
     sum.H.block<6, 6>(t, t) += pair.term.H;
     sum.H.block<6, 6>(t, h) -= weighted;
     sum.H.block<6, 6>(h, t) -= weighted.transpose();
-    sum.b.segment<6>(h) += A.transpose() * pair.term.b;
-    sum.b.segment<6>(t) -= pair.term.b;
+    const Vector6d gradient = pair.term.gradient_at(moved_since_linearized(pair));
+    sum.b.segment<6>(h) += A.transpose() * gradient;
+    sum.b.segment<6>(t) -= gradient;
   }
   return sum;
 }
@@ -118,9 +142,9 @@ double WindowOptimizer::prior_energy() const {
   return d.dot(0.5 * (prior_.H * d) + prior_.b);
 }
 
-double WindowOptimizer::total_energy(const std::vector<Pair>& pairs) const {
+double WindowOptimizer::total_energy() const {
   double energy = prior_energy();
-  for (const Pair& pair : pairs) energy += pair.term.energy;
+  for (const Pair& pair : pairs_) energy += pair.term.energy_at(moved_since_linearized(pair));
   return energy;
 }
 
@@ -131,38 +155,40 @@ void WindowOptimizer::move(const Eigen::VectorXd& step) {
   }
 }
 
+double WindowOptimizer::largest_move_px(const Eigen::VectorXd& step) const {
+  double largest = 0.0;
+  for (int i = 0; i < size(); ++i) {
+    largest = std::max(largest, pixels_moved(step.segment<6>(6 * i), keyframe(i)));
+  }
+  return largest;
+}
+
 // Takes the step, and the terms linearised there, if it lowers the energy for the scales it was
 // computed with. Images are read once per step: what decides on the step also serves the next one.
-bool WindowOptimizer::descend(std::vector<Pair>& pairs, const Eigen::VectorXd& step) {
+bool WindowOptimizer::descend(const Eigen::VectorXd& step) {
   std::vector<Eigen::Isometry3d> poses;
   for (const auto& keyframe : keyframes_) poses.push_back(keyframe->T_world_camera);
-  const std::map<PairKey, Photometry> known = known_;
-  const double before = total_energy(pairs);
+  const double before = total_energy();
 
   move(step);
   double after = prior_energy();
-  std::vector<Pair> moved;
-  moved.reserve(pairs.size());
-  for (const Pair& pair : pairs) {
-    Photometry& next = known_[{keyframe(pair.host).sequence, keyframe(pair.target).sequence}];
-    next = {pair.term.at.brightness, pair.term.at.sigma_grey};
-    if (photometry_.affine_brightness) {
-      const Vector6d xi = d_relative_d_host(pair) * step.segment<6>(6 * pair.host) -
-                          step.segment<6>(6 * pair.target);
-      const Eigen::Vector2d d = pair.term.brightness_step + pair.term.d_brightness_d_pose * xi;
-      next.brightness.gain += d.x();
-      next.brightness.offset += d.y();
+  std::vector<Pair> moved = pairs_;
+  for (Pair& pair : moved) {
+    const Vector6d xi = moved_since_linearized(pair);
+    if (outdated(pair, xi)) {
+      const PairTerm old = pair.term;
+      pair.term = linearize(pair.host, pair.target, old.moved(xi));
+      after += energy_at(old, workspace_.current, photometry_);
+    } else {
+      after += pair.term.energy_at(xi);
     }
-    moved.push_back({pair.host, pair.target, linearize_pair(pair.host, pair.target)});
-    after += energy_at(pair.term, workspace_.current, photometry_);
     if (!(after < before)) break;  // no pair's energy is negative
   }
   if (after < before) {
-    pairs = std::move(moved);
+    pairs_ = std::move(moved);
     return true;
   }
   for (std::size_t i = 0; i < keyframes_.size(); ++i) keyframes_[i]->T_world_camera = poses[i];
-  known_ = known;
   return false;
 }
 
@@ -170,41 +196,32 @@ WindowSummary WindowOptimizer::optimize(std::optional<int> most_iterations) {
   const int limit =
       std::min(config_.max_iterations, most_iterations.value_or(config_.max_iterations));
   WindowSummary summary;
-  pairs_ = covisible_pairs();
-  std::vector<Pair>& pairs = *pairs_;
-  summary.pairs = static_cast<int>(pairs.size());
-  summary.initial_energy = summary.final_energy = total_energy(pairs);
-  if (size() < 2 || pairs.empty()) return summary;
+  update_pairs();
+  summary.pairs = static_cast<int>(pairs_.size());
+  summary.initial_energy = summary.final_energy = total_energy();
+  if (size() < 2 || pairs_.empty()) return summary;
 
   double damping = 0.0;
   while (summary.iterations < limit && !summary.converged) {
     ++summary.iterations;
-    const Eigen::VectorXd step = solve_holding_oldest(energy_about_current(pairs), damping);
+    const Eigen::VectorXd step = solve_holding_oldest(energy_about_current(pairs_), damping);
     if (!step.allFinite()) break;
-    double largest_px = 0.0;
-    for (int i = 1; i < size(); ++i) {
-      largest_px = std::max(
-          largest_px, camera_.intrinsics().fx *
-                          (step.segment<3>(6 * i).norm() +
-                           step.segment<3>(6 * i + 3).norm() * keyframe(i).mean_inverse_depth));
-    }
-    if (descend(pairs, step)) {
+    if (descend(step)) {
       damping = damping > kFirstDamping ? 0.1 * damping : 0.0;
     } else {
       damping = std::max(kFirstDamping, 10.0 * damping);
     }
-    summary.converged = largest_px < config_.convergence_px || damping > kMostDamping;
+    summary.converged = largest_move_px(step) < config_.convergence_px || damping > kMostDamping;
   }
-  summary.final_energy = total_energy(pairs);
+  summary.final_energy = total_energy();
   return summary;
 }
 
 // One pair: the others share its points, and with them its errors.
 bool WindowOptimizer::teach(SelfCalibration& calibration) {
-  if (!pairs_) return false;
-  for (const Pair& pair : *pairs_) {
+  for (const Pair& pair : pairs_) {
     if (pair.target != size() - 1 || pair.host != size() - 2) continue;
-    const PairTerm term = linearize_pair(pair.host, pair.target);
+    const PairTerm term = linearize(pair.host, pair.target, pair.term.at);
     calibration.observe(keyframe(pair.host), term.at, workspace_.current, photometry_);
   }
   return calibration.update();
@@ -212,40 +229,37 @@ bool WindowOptimizer::teach(SelfCalibration& calibration) {
 
 void WindowOptimizer::set_camera(const CameraModel& camera) {
   camera_ = camera;
+  other_camera_ = true;
   for (const auto& keyframe : keyframes_) {
-    for (int level = 0; level < keyframe->pyramid.levels(); ++level) {
-      keyframe->patches[static_cast<std::size_t>(level)] = make_patches(
-          keyframe->pyramid, level, camera, keyframe->points, photometry_.gradient_weight_constant);
+    for (std::size_t level = 0; level < keyframe->patches.size(); ++level) {
+      keyframe->patches[level] =
+          make_patches(keyframe->pyramid, static_cast<int>(level), camera, keyframe->points,
+                       photometry_.gradient_weight_constant);
     }
   }
-  pairs_.reset();
 }
 
 void WindowOptimizer::forget_pairs_of_oldest() {
-  const std::uint64_t leaver = oldest().sequence;
-  std::erase_if(known_, [&](const auto& entry) {
-    return entry.first.first == leaver || entry.first.second == leaver;
-  });
-  if (!pairs_) return;
-  std::erase_if(*pairs_, [](const Pair& pair) { return pair.host == 0 || pair.target == 0; });
-  for (Pair& pair : *pairs_) {
+  std::erase_if(pairs_, [](const Pair& pair) { return pair.host == 0 || pair.target == 0; });
+  for (Pair& pair : pairs_) {
     --pair.host;
     --pair.target;
   }
+  --looked_at_;
 }
 
 MarginalizedKeyframe WindowOptimizer::marginalize_oldest() {
   MarginalizedKeyframe result;
   if (size() > 1) {
-    if (!pairs_) pairs_ = covisible_pairs();
-    const Quadratic everything = energy_about_current(*pairs_);
+    if (looked_at_ < size()) update_pairs();
+    const Quadratic everything = energy_about_current(pairs_);
     // From the successor's body increment to the left increment of T_keyframe_successor.
     const Matrix6d A = adjoint(keyframe(1).T_world_camera.inverse() * keyframe(0).T_world_camera);
     result.successor_information = A.transpose() * information_of_second(everything) * A;
 
     // Only the terms that involve the leaver go into the prior; the others are evaluated anew.
     std::vector<Pair> leaving;
-    for (const Pair& pair : *pairs_) {
+    for (const Pair& pair : pairs_) {
       if (pair.host == 0 || pair.target == 0) leaving.push_back(pair);
     }
     Quadratic energy = energy_about_current(leaving);

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "slam/calibration/self_calibration.h"
@@ -18,6 +15,9 @@ struct WindowConfig {
   int size = 5;  // N_w of Table I
   int max_iterations = 15;
   double convergence_px = 0.01;
+  // A pair whose pixels have moved by less since it was linearised keeps its linearisation: most
+  // steps move the newest keyframe only (fluid relinearisation, Kaess et al. 2012).
+  double relinearization_px = 0.05;
   // A pair of keyframes is covisible if this share of the host's points, and at least min_points,
   // project into the target and are found there.
   double min_visible_ratio = 0.15;
@@ -66,39 +66,42 @@ class WindowOptimizer {
   MarginalizedKeyframe marginalize_oldest();
 
  private:
-  using PairKey = std::pair<std::uint64_t, std::uint64_t>;  // sequences of host and target
   struct Pair {
     int host;
     int target;
     PairTerm term;
   };
-  // How a pair compared when last looked at: where the next look starts.
-  struct Photometry {
-    Brightness brightness;
-    double sigma_grey;
-  };
 
-  PairTerm linearize_pair(int host, int target);
-  std::vector<Pair> covisible_pairs();
+  PairTerm linearize(int host, int target, const Alignment& start);
+  // Looks at keyframes not looked at yet, and again at pairs that have changed.
+  void update_pairs();
+  void add_if_covisible(int host, int target);
   Quadratic energy_about_current(const std::vector<Pair>& pairs) const;
   Eigen::VectorXd increments_since_first() const;
   Matrix6d d_relative_d_host(const Pair& pair) const;
-  bool descend(std::vector<Pair>& pairs, const Eigen::VectorXd& step);
+  // Where the pair stands now, as a left increment of where it was linearised.
+  Vector6d moved_since_linearized(const Pair& pair) const;
+  double pixels_moved(const Vector6d& xi, const Keyframe& keyframe) const;
+  // So far, in space or in brightness, that the pair has to be linearised anew.
+  bool outdated(const Pair& pair, const Vector6d& xi) const;
+  bool descend(const Eigen::VectorXd& step);
   void move(const Eigen::VectorXd& step);
-  void forget_pairs_of_oldest();
-  double total_energy(const std::vector<Pair>& pairs) const;
+  double largest_move_px(const Eigen::VectorXd& step) const;
+  double total_energy() const;
   double prior_energy() const;
-  Alignment alignment_of(int host, int target) const;
+  void forget_pairs_of_oldest();
+  Eigen::Isometry3d T_target_host(int host, int target) const;
 
   CameraModel camera_;
   WindowConfig config_;
   PhotometryConfig photometry_;
   std::vector<std::unique_ptr<Keyframe>> keyframes_;
   Quadratic prior_;  // over all of keyframes_
-  std::map<PairKey, Photometry> known_;
-  // The covisible pairs at the current poses, so that what leaves is marginalised from the very
-  // terms that were minimised. None after add().
-  std::optional<std::vector<Pair>> pairs_;
+  // The covisible pairs of the first looked_at_ keyframes. They stay from one optimisation to the
+  // next, and what leaves is marginalised from the very terms that were minimised.
+  std::vector<Pair> pairs_;
+  int looked_at_ = 0;
+  bool other_camera_ = false;  // pairs_ were linearised through another one
   AlignmentWorkspace workspace_;
 };
 

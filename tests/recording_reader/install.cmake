@@ -15,11 +15,11 @@ if(NOT "${installed}" STREQUAL "${lock}")
   execute_process(COMMAND ${NPM} ci WORKING_DIRECTORY ${BUILD_DIR} RESULT_VARIABLE result
                   OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
-    message(FATAL_ERROR "npm could not install the packages of tests/recording_reader, so recordings "
-                        "were not checked by a reader that is not ours. Is the npm registry reachable? "
+    message(FATAL_ERROR "npm could not install the packages of tests/recording_reader, so what "
+                        "we write was not checked by a reader that is not ours. Is the npm registry reachable? "
                         "npm said:\n${output}")
   endif()
   file(WRITE ${stamp} "${lock}")
 endif()
-# The script stands beside the packages, where Node.js looks for them.
-file(COPY ${SOURCE_DIR}/read_recording.mjs DESTINATION ${BUILD_DIR})
+# The scripts stand beside the packages, where Node.js looks for them.
+file(COPY ${SOURCE_DIR}/read_recording.mjs ${SOURCE_DIR}/read_map.mjs DESTINATION ${BUILD_DIR})

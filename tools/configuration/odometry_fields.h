@@ -58,6 +58,7 @@ void visit_fields(Visitor& profile, WindowConfig& window) {
   profile.field("size", window.size, {2, 50});
   profile.field("max_iterations", window.max_iterations, {0, 1000});
   profile.field("convergence_px", window.convergence_px, {1e-6, 10.0});
+  profile.field("relinearization_px", window.relinearization_px, {0.0, 10.0});
   profile.field("min_visible_ratio", window.min_visible_ratio, kShare);
   profile.field("min_points", window.min_points, {6, 100000});
   profile.field("min_found_share", window.min_found_share, {-1.0, 1.0});

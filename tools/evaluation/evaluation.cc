@@ -99,6 +99,9 @@ void note_what_is_missing(Evaluation& evaluation, bool by_time, const Evaluation
         "the ground truth of this sequence?",
         evaluation.truth_frames, evaluation.estimate_frames, evaluation.frames));
   }
+  if (evaluation.revisits && evaluation.revisits->revisits.empty()) {
+    notes.push_back("the true path does not come back to its start: no place is passed twice");
+  }
   if (!evaluation.kitti.t_rel_percent && !options.segments.lengths_m.empty()) {
     notes.push_back(fmt::format(
         "the path is {:.1f} m long: too short for any segment, the shortest is {:g} m "
@@ -123,6 +126,7 @@ Result<Evaluation> evaluate_trajectories(const Trajectory& estimate, const Traje
                         .path_length_m = path_distances_m(pairs.truth).back(),
                         .kitti = kitti_error(pairs, options.segments),
                         .rpe = relative_error(pairs, options.rpe_delta_frames)};
+  if (options.revisits.places > 0) evaluation.revisits = revisit_error(pairs, options.revisits);
   for (const IndexPair& pair : *indices) {
     evaluation.estimate_indices.push_back(pair.estimate);
   }

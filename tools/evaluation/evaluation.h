@@ -9,6 +9,7 @@
 
 #include "hal/result.h"
 #include "tools/evaluation/kitti_error.h"
+#include "tools/evaluation/revisit_error.h"
 #include "tools/evaluation/trajectory.h"
 
 namespace sparsight {
@@ -16,6 +17,7 @@ namespace sparsight {
 struct EvaluationOptions {
   SegmentOptions segments;
   std::size_t rpe_delta_frames = 1;
+  RevisitOptions revisits;
   std::chrono::nanoseconds max_time_difference{20'000'000};  // between poses taken as simultaneous
 };
 
@@ -43,7 +45,8 @@ struct Evaluation {
   double path_length_m = 0.0;  // along the ground truth of the evaluated frames
   KittiError kitti;
   AbsoluteError ate;
-  std::optional<RelativeError> rpe;  // none: no two frames that far apart
+  std::optional<RelativeError> rpe;      // none: no two frames that far apart
+  std::optional<RevisitError> revisits;  // none: not asked for
   // Per evaluated frame, in the ground truth's world.
   std::vector<std::size_t> estimate_indices;
   std::vector<Eigen::Vector3d> truth_positions;

@@ -36,6 +36,39 @@ Json rpe_json(const std::optional<RelativeError>& rpe) {
           {"rotation_rmse_deg", rpe->rotation_rmse_deg}};
 }
 
+Json revisits_json(const std::optional<RevisitError>& error) {
+  if (!error) {
+    return nullptr;
+  }
+  Json list = Json::array();
+  for (const Revisit& revisit : error->revisits) {
+    list.push_back({{"place", revisit.place},
+                    {"first_frame", revisit.first},
+                    {"frame", revisit.again},
+                    {"way_m", revisit.way_m},
+                    {"error_m", revisit.error_m},
+                    {"error_deg", revisit.error_deg}});
+  }
+  return {{"places", error->places},
+          {"rmse_m", error->rmse_m},
+          {"max_m", error->max_m},
+          {"passes", list}};
+}
+
+void append_revisits(std::string& text, const std::optional<RevisitError>& error) {
+  if (!error || error->revisits.empty()) {
+    return;
+  }
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "revisits      rmse {:.4f} m   max {:.4f}   ({} of {} places)\n",
+                 error->rmse_m, error->max_m, error->revisits.size(), error->places);
+  fmt::format_to(out, "\n{:>12} {:>9} {:>9} {:>12}\n", "place", "way m", "error m", "error deg");
+  for (const Revisit& revisit : error->revisits) {
+    fmt::format_to(out, "{:>12} {:>9.1f} {:>9.4f} {:>12.3f}\n", revisit.place, revisit.way_m,
+                   revisit.error_m, revisit.error_deg);
+  }
+}
+
 void append_means(std::string& text, const std::vector<SegmentMean>& means, std::string_view head) {
   if (means.empty()) {
     return;
@@ -82,6 +115,7 @@ std::string evaluation_table(const Evaluation& evaluation, const EvaluatedFiles&
   fmt::format_to(out, "evaluated     {} of {} frames, {:.1f} m\n", evaluation.frames,
                  evaluation.truth_frames, evaluation.path_length_m);
   append_figures(text, evaluation);
+  append_revisits(text, evaluation.revisits);
   append_means(text, evaluation.kitti.per_length, "length m");
   append_means(text, evaluation.kitti.per_speed, "speed m/s");
   return text;
@@ -108,6 +142,7 @@ std::string evaluation_json(const Evaluation& evaluation, const EvaluatedFiles& 
                        {"median_m", ate.median_m},
                        {"max_m", ate.max_m}}},
                      {"rpe", rpe_json(evaluation.rpe)},
+                     {"revisits", revisits_json(evaluation.revisits)},
                      {"notes", evaluation.notes}};
   // A file name need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -56,14 +56,22 @@ class LiveRun {
   LiveRun(LiveRig rig, const LiveOptions& options, std::unique_ptr<Recorder> recorder)
       : options_(options),
         recorder_(std::move(recorder)),
-        session_(options.folder, description(rig, options), options.map && options.odometry,
+        session_(options.folder, description(rig, options),
+                 options.odometry ? options.map : std::vector<CloudFormat>{},
                  AtomicFile::Appears::kAtOnce),
         given_(rig.config.calibration.camera),
-        loops_(closer(options)),
+        loops_(closer(options, session_.keyframes())),
         pipeline_(std::move(rig.devices), rig.config.calibration, options.config,
                   sync_config(rig.config), outputs(), live_config(rig, options)) {}
 
-  Result<void> begin() { return session_.begin(); }
+  Result<void> begin() {
+    auto map = SessionMap::open(options_.maps, options_.config.loop, given_, *built_in_vocabulary(),
+                                *session_.keyframes());
+    if (!map) return tl::unexpected(map.error());
+    map_ = std::move(*map);
+    if (loops_) map_.resume(*loops_);
+    return session_.begin();
+  }
   void note(const std::string& remark) {
     say("note: " + remark);
     session_.session().notes.push_back(remark);
@@ -88,6 +96,7 @@ class LiveRun {
   Result<LiveResult> result() {
     if (auto written = session_.write(); !written) return tl::unexpected(written.error());
     auto failure = options_.odometry ? failure_of(session_.session()) : std::nullopt;
+    if (!saved_) failure = saved_.error();
     return LiveResult{std::move(session_.session()), std::move(failure)};
   }
 
@@ -104,9 +113,11 @@ class LiveRun {
             .odometry = options.odometry};
   }
 
-  static std::unique_ptr<LoopCloser> closer(const LiveOptions& options) {
+  static std::unique_ptr<LoopCloser> closer(const LiveOptions& options,
+                                            std::shared_ptr<KeyframeStore> keyframes) {
     if (!options.odometry || !options.config.loop.enabled) return nullptr;
-    return std::make_unique<LoopCloser>(options.config, built_in_vocabulary());
+    return std::make_unique<LoopCloser>(options.config, built_in_vocabulary(),
+                                        std::move(keyframes));
   }
 
   LiveOutputs outputs() {
@@ -158,6 +169,7 @@ class LiveRun {
     status_ = pipeline_.look();
     for (const std::string& remark : pipeline_.remarks()) note(remark);
     tell_devices();
+    tell_recording();
     const auto now = Clock::now();
     if (const auto interval = service.watchdog_interval(); interval && now >= next_feed_) {
       next_feed_ = now + *interval;
@@ -178,6 +190,14 @@ class LiveRun {
       say(fmt::format("{} is {}{}{}", name, name_of(device->state),
                       device->message.empty() ? "" : ": ", device->message));
     }
+  }
+
+  // Once: what ended it does not go away by itself.
+  void tell_recording() {
+    if (!recorder_ || recording_ended_) return;
+    const RecorderReport report = recorder_->report();
+    recording_ended_ = report.state != RecorderState::kRecording;
+    if (recording_ended_) say(report.message);
   }
 
   void show(const ServiceNotifier& service) {
@@ -208,14 +228,24 @@ class LiveRun {
     note_losses(session);
     if (options_.odometry) tell_camera_found(given_, pipeline_.camera(), session);
     session_.end(trajectories(), wall);
+    if (loops_) save_map();
+  }
+
+  void save_map() {
+    saved_ = map_.save(*loops_, *built_in_vocabulary(),
+                       session_.session().description.source.string(), *session_.keyframes());
+    if (!saved_) return;
+    for (const std::string& remark : map_.remarks(*loops_)) {
+      session_.session().notes.push_back(remark);
+    }
   }
 
   ReplayTrajectories trajectories() {
     ReplayTrajectories result{.odometry = pipeline_.trajectory()};
     if (loops_) {
       loops_->finish();
-      result.corrected_keyframes = loops_->poses();
-      result.corrected = pipeline_.trajectory(result.corrected_keyframes);
+      result.placed = loops_->placed_keyframes();
+      result.corrected = pipeline_.trajectory(loops_->poses());
       session_.session().loops = loops_->loops();
       session_.session().loop_statistics = loops_->statistics();
       session_.session().submaps = loops_->submaps();
@@ -239,10 +269,15 @@ class LiveRun {
   }
 
   void note_recording(const RecorderReport& report, Session& session) const {
-    session.notes.push_back(fmt::format("recorded {:.1f} MB: {} frames, {} LiDAR packets, {} edges",
-                                        1e-6 * static_cast<double>(report.bytes_written),
-                                        status_.camera.events, status_.lidar.events,
-                                        status_.trigger.events));
+    session.notes.push_back(fmt::format(
+        "recorded {:.1f} MB; the devices delivered {} frames, {} LiDAR packets, {} edges",
+        1e-6 * static_cast<double>(report.bytes_written), status_.camera.events,
+        status_.lidar.events, status_.trigger.events));
+    if (report.events_refused > 0) {
+      session.notes.push_back(
+          fmt::format("{} of these came after the recording had ended, and are not in it",
+                      report.events_refused));
+    }
     if (!report.message.empty()) session.notes.push_back(report.message);
     if (report.lost_anything_raw()) {
       session.notes.push_back(fmt::format(
@@ -274,13 +309,16 @@ class LiveRun {
   std::unique_ptr<LoopCloser> loops_;  // the background thread's, until the pipeline has stopped
   SubmapNews submap_news_;             // likewise
   MapPlace place_;                     // likewise
-  LivePipeline pipeline_;              // after what its outputs use
+  SessionMap map_;
+  Result<void> saved_;
+  LivePipeline pipeline_;  // after what its outputs use
   LiveStatus status_;
   LiveStatus shown_;
   std::chrono::nanoseconds shown_cpu_ = processor_time();
   Clock::time_point shown_wall_ = Clock::now();
   Clock::time_point next_show_ = Clock::now() + kShowPeriod;
   Clock::time_point next_feed_ = Clock::now();
+  bool recording_ended_ = false;
   DeviceState told_[3] = {DeviceState::kStreaming, DeviceState::kStreaming,
                           DeviceState::kStreaming};
 };

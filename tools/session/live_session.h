@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hal/result.h"
 #include "slam/odometry_config.h"
+#include "tools/cloud/cloud_file.h"
+#include "tools/map/session_map.h"
 #include "tools/session/live_devices.h"
 #include "tools/session/session.h"
 
@@ -18,7 +21,8 @@ struct LiveOptions {
   std::filesystem::path folder;  // where the session goes; it exists and holds nothing
   bool odometry = true;          // false: record only
   bool recording = true;
-  bool map = true;
+  std::vector<CloudFormat> map = {CloudFormat::kPly};  // files of it; none: no map
+  SessionMapOptions maps;                              // to go on in, and to leave
   bool realtime = true;
   bool json = false;
   bool quiet = false;

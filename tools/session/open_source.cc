@@ -17,7 +17,7 @@ Result<OpenedSource> open_source(const std::filesystem::path& source,
   if (is_capture_folder(source)) return open_capture(source, options);
   auto frames = open_dataset(source, {.rays = options.rays, .camera = options.camera});
   if (!frames) return tl::unexpected(frames.error());
-  return OpenedSource{std::move(*frames)};
+  return OpenedSource{.frames = std::move(*frames), .full_intensity = 1.0F};  // KITTI's scale
 }
 
 }  // namespace sparsight

@@ -22,6 +22,7 @@ struct OpenedSource {
   // What is to be said of it now: of a recording that was cut off, of a clock that never settled.
   // Complete once the frames have been read.
   std::function<std::vector<std::string>()> remarks = [] { return std::vector<std::string>{}; };
+  float full_intensity = 255.0F;  // of the LiDAR's brightest return
 };
 
 // A recording of a rig, by its name.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "tools/loop/vocabulary_file.h"
 #include "tools/session/ground_truth.h"
 #include "tools/session/interrupt.h"
@@ -47,13 +49,14 @@ int camera_of(const ReplayOptions& options) {
   return 0;
 }
 
-SessionDescription describe(const ReplayOptions& options, const RigCalibration& calibration) {
+SessionDescription describe(const ReplayOptions& options, const OpenedSource& source) {
   return {.source = options.source,
           .profile_name = options.profile_name,
           .config = options.config,
           .rays = options.rays,
           .camera = camera_of(options),
-          .calibration = calibration};
+          .calibration = source.frames->calibration(),
+          .full_intensity = source.full_intensity};
 }
 
 std::optional<std::size_t> frames_to_come(const FrameSource& source, const ReplayOptions& options) {
@@ -62,8 +65,35 @@ std::optional<std::size_t> frames_to_come(const FrameSource& source, const Repla
   return count ? std::min(*count, *options.max_frames) : *options.max_frames;
 }
 
-// Runs to the end of the source, or until it breaks off: then what has been gathered stands.
-void run(FrameSource& source, const ReplayOptions& options, SessionRecorder& recorder) {
+std::unique_ptr<LoopCloser> closer_of(const ReplayOptions& options, SessionMap& map,
+                                      SessionRecorder& recorder) {
+  if (!options.config.loop.enabled) return nullptr;
+  auto loops =
+      std::make_unique<LoopCloser>(options.config, built_in_vocabulary(), recorder.keyframes());
+  map.resume(*loops);
+  return loops;
+}
+
+void tell_loops(const LoopCloser& loops, Session& session) {
+  session.loops = loops.loops();
+  session.loop_statistics = loops.statistics();
+  session.submaps = loops.submaps();
+}
+
+Result<void> save(SessionMap& map, const LoopCloser& loops, SessionRecorder& recorder) {
+  auto saved = map.save(loops, *built_in_vocabulary(),
+                        recorder.session().description.source.string(), *recorder.keyframes());
+  if (!saved) return saved;
+  for (std::string& remark : map.remarks(loops)) {
+    recorder.session().notes.push_back(std::move(remark));
+  }
+  return {};
+}
+
+// Runs to the end of the source, or until it breaks off: then what has been gathered stands. An
+// error if the map could not be saved.
+Result<void> run(FrameSource& source, const ReplayOptions& options, SessionMap& map,
+                 SessionRecorder& recorder) {
   Progress progress(stderr, Progress::style_for(stderr, options.quiet),
                     frames_to_come(source, options));
   TrackingNews tracking_news;
@@ -75,8 +105,7 @@ void run(FrameSource& source, const ReplayOptions& options, SessionRecorder& rec
     if (const auto news = tracking_news.of(record)) progress.say(*news);
     progress.frame(record.exposure, name_of(record.outcome.status));
   };
-  std::optional<LoopCloser> loops;
-  if (options.config.loop.enabled) loops.emplace(options.config, built_in_vocabulary());
+  const std::unique_ptr<LoopCloser> loops = closer_of(options, map, recorder);
   SubmapNews submap_news;
   const auto on_keyframe = [&](RetiredKeyframe&& keyframe) {
     recorder.add(keyframe);
@@ -88,23 +117,23 @@ void run(FrameSource& source, const ReplayOptions& options, SessionRecorder& rec
   InterruptibleSource interruptible(source, interrupt);
   const auto start = Clock::now();
   ReplayTrajectories trajectories;
+  bool whole = true;  // what was cut off in the middle of a step is no map
   try {
     Odometry odometry(source.calibration(), options.config);
-    trajectories = replay_deterministic(interruptible, odometry, options.max_frames,
-                                        {.on_frame = on_frame, .on_keyframe = on_keyframe},
-                                        loops ? &*loops : nullptr);
-    if (loops) {
-      recorder.session().loops = loops->loops();
-      recorder.session().loop_statistics = loops->statistics();
-      recorder.session().submaps = loops->submaps();
-    }
+    trajectories =
+        replay_deterministic(interruptible, odometry, options.max_frames,
+                             {.on_frame = on_frame, .on_keyframe = on_keyframe}, loops.get());
+    if (loops) tell_loops(*loops, recorder.session());
     tell_camera_found(source.calibration().camera, odometry.camera(), recorder.session());
     if (interrupt.pending()) recorder.session().broke_off = "stopped on request";
   } catch (const std::exception& error) {
     recorder.session().broke_off = fmt::format("the replay broke off: {}", error.what());
+    if (loops) trajectories.placed = loops->placed_keyframes();
+    whole = false;
   }
   progress.end();
   recorder.end(std::move(trajectories), Clock::now() - start);
+  return loops && whole ? save(map, *loops, recorder) : Result<void>{};
 }
 
 // A ground truth that cannot be read is told before hours are spent, not after.
@@ -124,15 +153,19 @@ Result<ReplayResult> replay_session(const ReplayOptions& options) {
   auto folder = claim_session_folder(options.output, options.source, options.rays);
   if (!folder) return tl::unexpected(folder.error());
 
-  SessionRecorder recorder(*folder, describe(options, source->frames->calibration()), options.map);
+  SessionRecorder recorder(*folder, describe(options, *source), options.map);
+  auto map =
+      SessionMap::open(options.maps, options.config.loop, source->frames->calibration().camera,
+                       *built_in_vocabulary(), *recorder.keyframes());
+  if (!map) return tl::unexpected(map.error());
   if (auto begun = recorder.begin(); !begun) return tl::unexpected(begun.error());
-  run(*source->frames, options, recorder);
+  const auto saved = run(*source->frames, options, *map, recorder);
   for (std::string& remark : source->remarks()) {
     recorder.session().notes.push_back(std::move(remark));
   }
   add_ground_truth(recorder.session(), options.ground_truth);
   if (auto written = recorder.write(); !written) return tl::unexpected(written.error());
-  auto failure = failure_of(recorder.session());
+  auto failure = saved ? failure_of(recorder.session()) : saved.error();
   return ReplayResult{*folder, std::move(recorder.session()), std::move(failure)};
 }
 

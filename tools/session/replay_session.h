@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hal/result.h"
 #include "slam/odometry.h"
+#include "tools/cloud/cloud_file.h"
+#include "tools/map/session_map.h"
 #include "tools/session/session.h"
 
 namespace sparsight {
@@ -21,8 +24,9 @@ struct ReplayOptions {
   std::optional<std::filesystem::path> output;
   std::optional<std::filesystem::path> ground_truth;  // else the one of the layout, if any
   bool no_loops = false;
-  bool map = true;
-  bool quiet = false;  // no progress; faults are still told
+  std::vector<CloudFormat> map = {CloudFormat::kPly};  // files of it; none: no map
+  SessionMapOptions maps;                              // to go on in, and to leave
+  bool quiet = false;                                  // no progress; faults are still told
 };
 
 struct ReplayResult {

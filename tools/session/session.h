@@ -23,6 +23,7 @@ struct SessionDescription {
   std::optional<int> rays;  // none: all the scans have
   int camera = 0;
   RigCalibration calibration;
+  float full_intensity = 255.0F;  // of the LiDAR's brightest return
 };
 
 // Milliseconds.

@@ -114,6 +114,7 @@ Json json_of(const std::vector<LoopClosure>& loops) {
     list.push_back(
         {{"frame", loop.current},
          {"seen_before_in_frame", loop.candidate},
+         {"in_earlier_map", loop.in_earlier_map},
          {"T_frame_before_tx_ty_tz_qx_qy_qz_qw", {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}},
          {"distance_m", t.norm()},
          {"pose_inliers", loop.check.pose_inliers},

@@ -1,14 +1,19 @@
 #include "tools/session/session_recorder.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
 
 #include "tools/configuration/profile.h"
-#include "tools/session/ply_writer.h"
 #include "tools/session/report.h"
 #include "tools/session/session_summary.h"
 
 namespace sparsight {
 namespace {
+
+// Images and clouds of the session that is running.
+constexpr const char* kKeyframeFile = "keyframes.partial";
 
 std::string kitti_text(const std::vector<TrajectoryPose>& trajectory) {
   std::vector<Eigen::Isometry3d> poses;
@@ -41,18 +46,29 @@ std::vector<TrajectoryPose> poses_as_tracked(const std::vector<FrameFigures>& fr
 }  // namespace
 
 SessionRecorder::SessionRecorder(std::filesystem::path folder, SessionDescription description,
-                                 bool map, AtomicFile::Appears journal)
-    : folder_(std::move(folder)), journal_(folder_ / "frames.csv", journal) {
+                                 std::vector<CloudFormat> map, AtomicFile::Appears journal)
+    : folder_(std::move(folder)),
+      formats_(std::move(map)),
+      keyframes_(std::make_shared<PagedKeyframes>()),
+      journal_(folder_ / "frames.csv", journal) {
   if (journal == AtomicFile::Appears::kAtOnce) {
     poses_.emplace(folder_ / "trajectory.tum", journal);
     poses_->stream() << kTumHeader;
   }
   session_.description = std::move(description);
-  if (map) map_.emplace(VoxelMapConfig{});
+  if (!formats_.empty()) {
+    map_.emplace(VoxelMapConfig{});
+    composer_.emplace(*map_);
+  }
   journal_.stream() << frames_csv_header();
 }
 
 Result<void> SessionRecorder::begin() {
+  if (session_.description.config.loop.enabled && !keyframes_->writes()) {
+    auto file = KeyframeFile::create(folder_ / kKeyframeFile);
+    if (!file) return tl::unexpected(file.error());
+    keyframes_->write_to(std::move(*file));
+  }
   if (std::filesystem::exists(folder_ / "session.json")) return {};
   return write_file(folder_ / "session.json", session_json(session_, {}));
 }
@@ -78,14 +94,29 @@ void SessionRecorder::add(const RetiredKeyframe& keyframe) {
     session_.submaps.push_back({.first_keyframe = keyframe.sequence, .part = keyframe.sequence});
   }
   ++session_.submaps.back().keyframes;
-  if (!map_) return;
-  if (!session_.description.config.loop.enabled) {
-    map_->add(keyframe);
-    return;
+  if (!composer_ || session_.description.config.loop.enabled) return;
+  composer_->add({.T_world_camera = keyframe.T_world_camera,
+                  .camera = session_.description.calibration.camera,
+                  .cloud_camera = keyframe.cloud_camera});
+}
+
+void SessionRecorder::compose_map(const std::vector<PlacedKeyframe>& placed) {
+  for (const PlacedKeyframe& keyframe : placed) {
+    auto bulk = keyframes_->get(keyframe.stored);
+    if (!bulk) continue;
+    composer_->add({.T_world_camera = keyframe.T_world_camera,
+                    .camera = keyframe.camera,
+                    .cloud_camera = std::move(bulk->cloud_camera)});
   }
-  unplaced_.push_back({.sequence = keyframe.sequence,
-                       .T_world_camera = keyframe.T_world_camera,
-                       .cloud_camera = keyframe.cloud_camera});
+  composer_->finish();
+}
+
+void SessionRecorder::note_keyframes() {
+  const std::size_t lost = keyframes_->not_kept() + keyframes_->damaged();
+  if (lost == 0 || !session_.description.config.loop.enabled) return;
+  session_.notes.push_back(
+      fmt::format("{} keyframes could not be kept or read back; they are missing in the map: {}",
+                  lost, keyframes_->message()));
 }
 
 void SessionRecorder::end(ReplayTrajectories trajectories, std::chrono::nanoseconds wall_time) {
@@ -96,14 +127,8 @@ void SessionRecorder::end(ReplayTrajectories trajectories, std::chrono::nanoseco
     session_.trajectory = std::move(trajectories.corrected);
     session_.odometry = std::move(trajectories.odometry);
   }
-  for (RetiredKeyframe& keyframe : unplaced_) {
-    const auto corrected = trajectories.corrected_keyframes.find(keyframe.sequence);
-    if (corrected != trajectories.corrected_keyframes.end()) {
-      keyframe.T_world_camera = corrected->second;
-    }
-    map_->add(keyframe);
-  }
-  unplaced_.clear();
+  if (composer_) compose_map(trajectories.placed);
+  note_keyframes();
   session_.wall_time = wall_time;
   session_.complete = !session_.broke_off;
 }
@@ -121,6 +146,8 @@ Result<void> SessionRecorder::write() {
   }
   if (auto written = write_odometry(); !written) return written;
   return journal_.commit().and_then([&] { return write_map(); }).and_then([&] {
+    std::error_code error;  // nothing needs it any more
+    std::filesystem::remove(folder_ / kKeyframeFile, error);
     return write_file(folder_ / "session.json", session_json(session_, summary));
   });
 }
@@ -136,9 +163,17 @@ Result<void> SessionRecorder::write_odometry() {
 }
 
 Result<void> SessionRecorder::write_map() {
-  if (map_) return write_ply(folder_ / "map.ply", map_->points());
-  std::error_code error;  // an earlier session's map would not be this one's
-  std::filesystem::remove(folder_ / "map.ply", error);
+  for (const CloudFormat format : kCloudFormats) {
+    const std::filesystem::path file = folder_ / fmt::format("map.{}", name_of(format));
+    if (std::ranges::find(formats_, format) == formats_.end()) {
+      std::error_code error;  // an earlier session's map would not be this one's
+      std::filesystem::remove(file, error);
+    } else if (auto written =
+                   write_cloud(file, format, map_->points(), session_.description.full_intensity);
+               !written) {
+      return written;
+    }
+  }
   return {};
 }
 

@@ -20,6 +20,7 @@ struct EvaluateArguments {
   std::vector<double> lengths_m = SegmentOptions{}.lengths_m;
   std::size_t step_frames = SegmentOptions{}.step_frames;
   std::size_t rpe_delta_frames = 1;
+  std::size_t revisit_places = 0;
   double max_time_difference_s = 0.02;
   bool json = false;
 };
@@ -48,7 +49,8 @@ EvaluationFiles files_of(const EvaluateArguments& arguments) {
 EvaluationOptions options_of(const EvaluateArguments& arguments) {
   EvaluationOptions options{
       .segments = {.lengths_m = arguments.lengths_m, .step_frames = arguments.step_frames},
-      .rpe_delta_frames = arguments.rpe_delta_frames};
+      .rpe_delta_frames = arguments.rpe_delta_frames,
+      .revisits = {.places = arguments.revisit_places}};
   options.max_time_difference = std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::duration<double>(arguments.max_time_difference_s));
   auto& lengths = options.segments.lengths_m;
@@ -105,6 +107,12 @@ void add_evaluate(CLI::App& app, int& exit_code) {
   command->add_option("--rpe-delta", arguments->rpe_delta_frames, "Frames a motion of RPE spans")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--revisits", arguments->revisit_places,
+          "Of N places along the first lap: how far later passes come apart from the first")
+      ->type_name("N")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{10'000}));
   command
       ->add_option("--max-time-difference", arguments->max_time_difference_s,
                    "Seconds between poses that count as simultaneous")

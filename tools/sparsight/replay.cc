@@ -6,6 +6,7 @@
 #include "tools/configuration/profile.h"
 #include "tools/session/replay_session.h"
 #include "tools/session/session_text.h"
+#include "tools/sparsight/map_options.h"
 #include "tools/sparsight/subcommands.h"
 
 namespace sparsight {
@@ -69,7 +70,7 @@ void add_replay(CLI::App& app, int& exit_code) {
       ->check(CLI::ExistingFile);
   command->add_flag("--quiet", options->quiet, "no progress and no summary");
   command->add_flag("--no-loops", options->no_loops, "odometry alone, whatever the profile says");
-  command->add_flag("!--no-map", options->map, "do not write map.ply");
+  add_map_options(*command, options->map, options->maps);
   command->callback([options, &exit_code] { exit_code = replay(*options); });
 }
 

@@ -12,6 +12,7 @@
 #include "tools/session/session_folder.h"
 #include "tools/session/session_text.h"
 #include "tools/session/simulate_session.h"
+#include "tools/sparsight/map_options.h"
 #include "tools/sparsight/subcommands.h"
 
 namespace sparsight {
@@ -166,7 +167,7 @@ void add_run(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_flag("--no-recording", arguments->no_recording,
                     "do not record what the rig delivers");
-  command->add_flag("!--no-map", arguments->options.map, "do not write map.ply");
+  add_map_options(*command, arguments->options.map, arguments->options.maps);
   command->callback([arguments, &exit_code] { exit_code = run_rig(*arguments); });
 }
 

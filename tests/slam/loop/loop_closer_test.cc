@@ -9,13 +9,14 @@
 
 #include "slam/loop/integrated_depth.h"
 #include "slam/points/camera_returns.h"
+#include "tests/build_paths.h"
 #include "tests/synthetic/scene.h"
 
 namespace sparsight {
 namespace {
 
 std::shared_ptr<const Vocabulary> shipped_vocabulary() {
-  std::ifstream file(SPARSIGHT_SOURCE_DIR "/config/vocabulary.bin", std::ios::binary);
+  std::ifstream file(testing::source_dir() / "config/vocabulary.bin", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   return std::make_shared<const Vocabulary>(
       Vocabulary::from_bytes(bytes, "config/vocabulary.bin").value());
@@ -245,6 +246,94 @@ TEST(LoopCloser, WithoutALoopThePosesAreTheOdometrys) {
   EXPECT_FALSE(closer.finish());
   for (std::size_t i = 0; i < MadeWalk::kViews; ++i) {
     EXPECT_EQ(closer.poses().at(10 * i).matrix(), walk.drifted(i).matrix());
+  }
+}
+
+// The second half of the walk is another session's, in a world of its own.
+class AnotherSession : public ::testing::Test {
+ protected:
+  static OdometryConfig config() {
+    OdometryConfig config = loop_settings();
+    config.loop.join.min_apart_m = 0.3;  // of a walk of two metres
+    return config;
+  }
+  static void walk(LoopCloser& closer, std::size_t from, std::size_t to,
+                   const Eigen::Isometry3d& T_world_hall) {
+    for (std::size_t i = from; i < to; ++i) {
+      RetiredKeyframe keyframe = made_walk().keyframe(i);
+      keyframe.sequence -= 10 * from;  // frames count from 0 again
+      if (i + 1 == to) keyframe.successor.reset();
+      if (keyframe.successor) keyframe.successor->sequence -= 10 * from;
+      keyframe.T_world_camera = T_world_hall * keyframe.T_world_camera;
+      closer.add(keyframe, made_walk().camera().intrinsics());
+    }
+    closer.finish();
+  }
+  static KnownPlaces first_session(const std::shared_ptr<KeyframeStore>& store) {
+    LoopCloser closer(config(), shipped_vocabulary(), store);
+    walk(closer, 0, MadeWalk::kViews, Eigen::Isometry3d::Identity());
+    return closer.known();
+  }
+
+  std::shared_ptr<KeyframeStore> store_ = std::make_shared<MemoryKeyframeStore>();
+  const Eigen::Isometry3d T_world_hall_ =
+      Eigen::Translation3d(40.0, -3.0, 7.0) * Eigen::AngleAxisd(2.0, Eigen::Vector3d::UnitY());
+};
+
+TEST_F(AnotherSession, FindsItselfInTheMapOfTheFirst) {
+  LoopCloser closer(config(), shipped_vocabulary(), store_);
+  closer.resume(first_session(store_));
+  EXPECT_TRUE(closer.poses().empty()) << "none of this session yet";
+  walk(closer, MadeWalk::kViews, 2 * MadeWalk::kViews, T_world_hall_);
+  ASSERT_FALSE(closer.loops().empty());
+  EXPECT_TRUE(closer.loops()[0].in_earlier_map);
+  const auto poses = closer.poses();
+  ASSERT_EQ(poses.size(), MadeWalk::kViews);
+  for (const auto& [sequence, T_map_camera] : poses) {
+    const Eigen::Isometry3d& truth = made_walk().truth[MadeWalk::kViews + sequence / 10];
+    EXPECT_LT((T_map_camera.translation() - truth.translation()).norm(), 0.1) << sequence;
+  }
+  ASSERT_EQ(closer.submaps().size(), 1);
+  EXPECT_TRUE(closer.submaps()[0].in_earlier_map);
+  // The map is that of both.
+  const auto placed = closer.placed_keyframes();
+  ASSERT_EQ(placed.size(), 2 * MadeWalk::kViews);
+  EXPECT_TRUE(placed[MadeWalk::kViews - 1].in_earlier_map);
+  EXPECT_FALSE(placed[MadeWalk::kViews].in_earlier_map);
+  for (std::size_t i = 0; i < placed.size(); ++i) EXPECT_EQ(placed[i].stored, i);
+  // What it leaves to a third session is both, too.
+  const KnownPlaces known = closer.known();
+  ASSERT_EQ(known.keyframes.size(), 2 * MadeWalk::kViews);
+  EXPECT_EQ(known.keyframes[MadeWalk::kViews - 1].session, 0);
+  EXPECT_EQ(known.keyframes[MadeWalk::kViews].session, 1);
+  EXPECT_EQ(known.keyframes[MadeWalk::kViews].submap, MadeWalk::kViews);
+  EXPECT_EQ(known.edges.size(), 2 * (MadeWalk::kViews - 1) + closer.loops().size());
+}
+
+TEST_F(AnotherSession, WhereNothingIsRecognisedStaysInItsOwnFrame) {
+  LoopCloser closer(config(), shipped_vocabulary(), store_);
+  closer.resume(first_session(store_));
+  walk(closer, MadeWalk::kViews, MadeWalk::kViews + 1, T_world_hall_);
+  EXPECT_TRUE(closer.loops().empty());
+  EXPECT_FALSE(closer.submaps()[0].in_earlier_map);
+  EXPECT_TRUE(closer.poses().at(0).isApprox(
+      T_world_hall_ * made_walk().keyframe(MadeWalk::kViews).T_world_camera, 1e-12));
+  EXPECT_EQ(closer.placed_keyframes().size(), 1) << "two frames do not make one map";
+  EXPECT_EQ(closer.known().keyframes.size(), MadeWalk::kViews + 1) << "but nothing is lost";
+}
+
+TEST_F(AnotherSession, AThirdGoesOnWithBoth) {
+  LoopCloser second(config(), shipped_vocabulary(), store_);
+  second.resume(first_session(store_));
+  walk(second, MadeWalk::kViews, 2 * MadeWalk::kViews, T_world_hall_);
+  LoopCloser third(config(), shipped_vocabulary(), store_);
+  third.resume(second.known());
+  walk(third, 0, MadeWalk::kViews, T_world_hall_.inverse());
+  ASSERT_FALSE(third.loops().empty());
+  EXPECT_EQ(third.known().keyframes.back().session, 2);
+  for (const auto& [sequence, T_map_camera] : third.poses()) {
+    const Eigen::Isometry3d& truth = made_walk().truth[sequence / 10];
+    EXPECT_LT((T_map_camera.translation() - truth.translation()).norm(), 0.1) << sequence;
   }
 }
 

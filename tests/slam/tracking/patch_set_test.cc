@@ -58,7 +58,7 @@ TEST(PatchSet, SpreadsThePatternOnTheRaysOfItsPixels) {
         1e-5);
     for (std::size_t i = 0; i < kPatternSize; ++i) {
       const Eigen::Vector2d offset(kPattern[i].u, kPattern[i].v);
-      EXPECT_LT((pixel_of(set, i, level) - centre - offset).norm(), 1e-4);
+      EXPECT_LT((pixel_of(set, i, level) - centre - offset).norm(), 1e-3);
       EXPECT_NEAR(set.z[i], 5.0F, 1e-5F) << "the depth of its centre";
     }
   }
@@ -84,6 +84,18 @@ TEST(PatchSet, LaysThePatternOntoASlantedPlane) {
     const PatchSet set = patches_of({point}, level);
     for (std::size_t i = 0; i < kPatternSize; ++i) {
       EXPECT_NEAR(normal.dot(p_of(set, i)), 4.0, 2e-3) << "level " << level << ", entry " << i;
+    }
+  }
+}
+
+TEST(PatchSet, WeighsAPatchAsItsPoint) {
+  SelectedPoint stranger = point_at(40.0, 40.0, 5.0);
+  stranger.weight = 0.25F;
+  for (const int level : {0, 1}) {
+    const PatchSet set = patches_of({stranger, point_at(80.0, 40.0, 5.0)}, level);
+    for (std::size_t i = 0; i < kPatternSize; ++i) {
+      EXPECT_EQ(set.weight[i], 0.25F);
+      EXPECT_EQ(set.weight[kPatternSize + i], 1.0F);
     }
   }
 }

@@ -158,6 +158,7 @@ TEST(WindowOptimizer, FindsWhatAnotherSolverFinds) {
   const SineRoom room;
   WindowConfig patient;
   patient.convergence_px = 1e-4;
+  patient.relinearization_px = 1e-4;
   patient.max_iterations = 50;
   Window window(room, 3, 3.0, patient);
   for (std::size_t i = 1; i < 3; ++i) {
@@ -173,6 +174,28 @@ TEST(WindowOptimizer, FindsWhatAnotherSolverFinds) {
     EXPECT_GT(error, 2e-3) << "noise moves the minimum; else this test could not fail";
     EXPECT_LT(shift_between(T, expected[index]), 5e-4) << i;
     EXPECT_LT(turn_between(T, expected[index]), 1e-4) << i;
+  }
+}
+
+// What has not moved far keeps its linearisation, and that changes next to nothing.
+TEST(WindowOptimizer, FindsTheSameWithoutLookingAgainAtWhatHardlyMoves) {
+  const SineRoom room;
+  WindowConfig thorough;
+  thorough.relinearization_px = 0.0;
+  Window lazy(room, 4, 3.0);
+  Window always(room, 4, 3.0, thorough);
+  for (Window* window : {&lazy, &always}) {
+    window->optimizer.optimize();
+    window->add(room, 4, 3.0);
+    Eigen::Isometry3d& T = window->keyframes.back()->T_world_camera;
+    T = T * exp_se3(0.5 * disturbance(0));
+    window->optimizer.optimize();
+  }
+  for (std::size_t i = 1; i < 5; ++i) {
+    const Eigen::Isometry3d& T = lazy.keyframes[i]->T_world_camera;
+    EXPECT_LT(shift_between(T, always.keyframes[i]->T_world_camera), 1e-3)
+        << i << ": noise moves it by more than 2e-3";
+    EXPECT_LT(turn_between(T, always.keyframes[i]->T_world_camera), 1e-4) << i;
   }
 }
 

@@ -52,13 +52,19 @@ class RecordedSession : public ::testing::Test {
     recorder.end({.odometry = std::move(trajectory)}, std::chrono::seconds(5));
   }
 
+  static SessionDescription without_loops(SessionDescription description = {}) {
+    description.config.loop.enabled = false;
+    return description;
+  }
+
   nlohmann::json json() const { return nlohmann::json::parse(text_of(folder_ / "session.json")); }
 
   fs::path folder_;
 };
 
 TEST_F(RecordedSession, LeavesEveryFileWholeAndNothingElse) {
-  SessionRecorder recorder(folder_, sample_session(1).description, true);
+  SessionRecorder recorder(folder_, without_loops(sample_session(1).description),
+                           {CloudFormat::kPly});
   record(recorder);
   ASSERT_TRUE(recorder.write());
   std::vector<std::string> names;
@@ -71,7 +77,7 @@ TEST_F(RecordedSession, LeavesEveryFileWholeAndNothingElse) {
 }
 
 TEST_F(RecordedSession, TrajectoriesHaveOnePosePerFrame) {
-  SessionRecorder recorder(folder_, {}, true);
+  SessionRecorder recorder(folder_, without_loops(), {CloudFormat::kPly});
   record(recorder);
   ASSERT_TRUE(recorder.write());
   const auto kitti = read_trajectory(folder_ / "trajectory.kitti");
@@ -86,9 +92,9 @@ TEST_F(RecordedSession, TrajectoriesHaveOnePosePerFrame) {
 }
 
 TEST_F(RecordedSession, JsonCountsWhatHappened) {
-  SessionDescription description = sample_session(1).description;
+  SessionDescription description = without_loops(sample_session(1).description);
   description.rays = 16;
-  SessionRecorder recorder(folder_, description, true);
+  SessionRecorder recorder(folder_, description, {CloudFormat::kPly});
   record(recorder);
   ASSERT_TRUE(recorder.write());
   const nlohmann::json session = json();
@@ -110,7 +116,7 @@ TEST_F(RecordedSession, JsonCountsWhatHappened) {
 
 TEST_F(RecordedSession, JournalHasALinePerFrameAndSurvivesACrash) {
   {
-    SessionRecorder recorder(folder_, {}, true);
+    SessionRecorder recorder(folder_, without_loops(), {CloudFormat::kPly});
     record(recorder);
     EXPECT_EQ(lines_of(folder_ / "frames.csv.partial"), kFrames + 1);
   }  // as after a crash: write() was never reached
@@ -127,20 +133,24 @@ TEST_F(RecordedSession, JournalLineHoldsTheFramesFigures) {
 TEST_F(RecordedSession, LoopsLeaveBothPathsAndTheMapOfTheCorrectedOne) {
   SessionDescription description;
   description.config.loop.enabled = true;
-  SessionRecorder recorder(folder_, description, true);
+  SessionRecorder recorder(folder_, description, {CloudFormat::kPly});
+  ASSERT_TRUE(recorder.begin());
   const FrameRecord frame = sample_record(0);
   recorder.add(frame);
   recorder.add({.sequence = 0, .cloud_camera = {{.p_camera = {0, 0, 5}, .rgb = {1, 2, 3}}}});
+  const std::size_t stored =
+      recorder.keyframes()->put({.cloud_camera = {{.p_camera = {0, 0, 5}, .rgb = {1, 2, 3}}}});
   Eigen::Isometry3d corrected = Eigen::Isometry3d::Identity();
   corrected.translation().x() = 40.0;
   recorder.session().loops.push_back({.candidate = 0, .current = 0});
   recorder.end({.odometry = {{0, frame.exposure, Eigen::Isometry3d::Identity()}},
                 .corrected = {{0, frame.exposure, corrected}},
-                .corrected_keyframes = {{0, corrected}}},
+                .placed = {{.stored = stored, .T_world_camera = corrected}}},
                std::chrono::seconds(1));
   ASSERT_TRUE(recorder.write());
   EXPECT_EQ(read_trajectory(folder_ / "trajectory.tum").value().poses[0].translation().x(), 40.0);
   EXPECT_EQ(read_trajectory(folder_ / "odometry.tum").value().poses[0].translation().x(), 0.0);
+  EXPECT_FALSE(fs::exists(folder_ / "keyframes.partial"));
   EXPECT_EQ(json()["loops"].size(), 1);
   EXPECT_THAT(text_of(folder_ / "report.html"), ::testing::HasSubstr("odometry, without loops"));
   EXPECT_THAT(text_of(folder_ / "map.ply"), ::testing::HasSubstr("element vertex 1\n"));
@@ -149,7 +159,7 @@ TEST_F(RecordedSession, LoopsLeaveBothPathsAndTheMapOfTheCorrectedOne) {
   std::memcpy(&x, map.data() + map.find("end_header\n") + 11, sizeof(x));
   EXPECT_FLOAT_EQ(x, 40.0F);
   // A session without loops in the same folder leaves only its own.
-  SessionRecorder again(folder_, {}, false);
+  SessionRecorder again(folder_, without_loops(), {});
   again.add(frame);
   again.end({}, std::chrono::seconds(1));
   ASSERT_TRUE(again.write());
@@ -158,12 +168,12 @@ TEST_F(RecordedSession, LoopsLeaveBothPathsAndTheMapOfTheCorrectedOne) {
 
 TEST_F(RecordedSession, EarlierSessionStaysUntilTheNewOneIsWritten) {
   {
-    SessionRecorder recorder(folder_, {}, true);
+    SessionRecorder recorder(folder_, without_loops(), {CloudFormat::kPly});
     record(recorder);
     ASSERT_TRUE(recorder.write());
   }
   const std::string before = text_of(folder_ / "trajectory.kitti");
-  SessionRecorder again(folder_, {}, false);
+  SessionRecorder again(folder_, without_loops(), {});
   ASSERT_TRUE(again.begin());
   again.add(sample_record(0));
   EXPECT_EQ(text_of(folder_ / "trajectory.kitti"), before);
@@ -175,7 +185,7 @@ TEST_F(RecordedSession, EarlierSessionStaysUntilTheNewOneIsWritten) {
 }
 
 TEST_F(RecordedSession, RunThatBrokeOffKeepsThePosesAsTheyWereTracked) {
-  SessionRecorder recorder(folder_, {}, false);
+  SessionRecorder recorder(folder_, without_loops(), {});
   for (std::uint64_t i = 0; i < 20; ++i) recorder.add(sample_record(i));
   recorder.session().broke_off = "out of luck";
   recorder.end({}, std::chrono::seconds(1));
@@ -190,7 +200,7 @@ TEST_F(RecordedSession, RunThatBrokeOffKeepsThePosesAsTheyWereTracked) {
 TEST_F(RecordedSession, ProfileReadsBackAsItWas) {
   SessionDescription description;
   description.config.window.size = 7;
-  SessionRecorder recorder(folder_, description, false);
+  SessionRecorder recorder(folder_, description, {});
   record(recorder);
   ASSERT_TRUE(recorder.write());
   const auto profile = load_profile(folder_ / "profile.toml");
@@ -199,7 +209,7 @@ TEST_F(RecordedSession, ProfileReadsBackAsItWas) {
 }
 
 TEST_F(RecordedSession, FolderThatVanishedIsAnErrorThatNamesTheFile) {
-  SessionRecorder recorder(folder_ / "gone", {}, true);
+  SessionRecorder recorder(folder_ / "gone", {}, {CloudFormat::kPly});
   recorder.end({}, std::chrono::seconds(1));
   const auto written = recorder.write();
   ASSERT_FALSE(written);

@@ -1,4 +1,4 @@
-#include "tools/session/ply_writer.h"
+#include "tools/cloud/ply_writer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

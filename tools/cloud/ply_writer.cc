@@ -1,4 +1,4 @@
-#include "tools/session/ply_writer.h"
+#include "tools/cloud/ply_writer.h"
 
 #include <fmt/format.h>
 

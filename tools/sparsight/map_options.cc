@@ -1,0 +1,37 @@
+#include "tools/sparsight/map_options.h"
+
+#include <map>
+#include <string>
+
+namespace sparsight {
+
+void add_map_options(CLI::App& command, std::vector<CloudFormat>& formats,
+                     SessionMapOptions& maps) {
+  std::map<std::string, CloudFormat> by_name;
+  for (const CloudFormat format : kCloudFormats) by_name[std::string(name_of(format))] = format;
+  CLI::Option* format =
+      command
+          .add_option("--map-format", formats,
+                      "files of the map, of ply, pcd and las (LAS 1.4), separated by commas")
+          ->type_name("FORMATS")
+          ->delimiter(',')
+          ->transform(CLI::CheckedTransformer(by_name, CLI::ignore_case).description(""))
+          ->default_str("ply");
+  command
+      .add_flag_callback(
+          "--no-map", [&formats] { formats.clear(); }, "write no map file")
+      ->excludes(format);
+  command
+      .add_option("--map", maps.earlier,
+                  "go on in the map of an earlier session: once a place of it is seen again, poses "
+                  "are in its frame")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
+  command
+      .add_option(
+          "--save-map", maps.save_to,
+          "leave a map for later sessions, with all that --map gave; may be the same folder")
+      ->type_name("DIR");
+}
+
+}  // namespace sparsight
