@@ -1,7 +1,6 @@
 #include "drivers/v4l2/video_device.h"
 
 #include <fmt/format.h>
-#include <linux/videodev2.h>
 
 #include <cerrno>
 #include <system_error>
@@ -39,7 +38,8 @@ Error system_error(const std::string& path, std::string_view what, int negative_
 
 }  // namespace
 
-Result<VideoDevice> VideoDevice::open(SystemCalls& calls, const std::string& path) {
+Result<VideoDevice> VideoDevice::open(SystemCalls& calls, const std::string& path,
+                                      std::uint32_t ability) {
   const int fd = calls.open(path);
   if (fd < 0) return tl::unexpected(system_error(path, "cannot open the camera", fd));
   VideoDevice device(calls, path, fd);
@@ -50,12 +50,12 @@ Result<VideoDevice> VideoDevice::open(SystemCalls& calls, const std::string& pat
   const std::uint32_t abilities = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0
                                       ? capability.device_caps
                                       : capability.capabilities;
-  constexpr std::uint32_t kNeeded = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
-  if ((abilities & kNeeded) != kNeeded) {
+  const std::uint32_t needed = ability | V4L2_CAP_STREAMING;
+  if ((abilities & needed) != needed) {
     return fail(ErrorCode::kUnreadable,
-                fmt::format("{}: does not stream single-plane video; a camera often has several "
+                fmt::format("{}: does not stream single-plane video {}; a device often has several "
                             "nodes, of which one does: v4l2-ctl --list-devices",
-                            path));
+                            path, ability == V4L2_CAP_VIDEO_OUTPUT ? "out" : "in"));
   }
   return device;
 }

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <linux/videodev2.h>
+
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -9,11 +12,13 @@
 
 namespace sparsight {
 
-// An open video capture node, closed when it goes out of scope.
+// An open video node, closed when it goes out of scope.
 class VideoDevice {
  public:
-  // Fails, too, if the node is no camera that streams.
-  static Result<VideoDevice> open(SystemCalls& calls, const std::string& path);
+  // Fails, too, if the node does not stream, or has not this ability: V4L2_CAP_VIDEO_CAPTURE or
+  // V4L2_CAP_VIDEO_OUTPUT.
+  static Result<VideoDevice> open(SystemCalls& calls, const std::string& path,
+                                  std::uint32_t ability = V4L2_CAP_VIDEO_CAPTURE);
   ~VideoDevice();
   VideoDevice(VideoDevice&& other) noexcept;
   VideoDevice(const VideoDevice&) = delete;

@@ -70,6 +70,7 @@ void DeviceStage::put(const RigEvent& event) {
 void DeviceStage::note(DeviceState state) {
   if (state_.exchange(state) == state) return;
   if (state == DeviceState::kEnded) return;
+  if (state == DeviceState::kStreaming && device_.streams) device_.streams();
   const DeviceStateChange change{.device = device_.kind, .state = state, .at = HostClock::now()};
   to_recorder_.producer().try_push(change);
   to_sync_.producer().try_push(change);

@@ -36,6 +36,7 @@ class DeviceStage {
     std::function<std::optional<RigEvent>()> read;  // waits a moment
     std::function<void()> stop;
     std::function<DeviceState()> state;
+    std::function<void()> streams = {};  // called, if given, whenever it has begun to stream
   };
 
   DeviceStage(Device device, std::size_t queue_events, ThreadSettings settings,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "realtime/executor/interrupt_threads.h"
 #include "realtime/executor/loop_clock.h"
 #include "realtime/pipeline/background_runner.h"
 #include "realtime/pipeline/device_stage.h"
@@ -18,13 +19,16 @@
 namespace sparsight {
 namespace {
 
-// SCHED_FIFO, above what they feed and below the kernel's interrupt threads that feed them only
-// where those were raised (docs/architecture.md).
+// SCHED_FIFO, each above what it feeds (docs/architecture.md).
+constexpr int kInterruptPriority = 85;  // of the trigger lines
 constexpr int kTriggerPriority = 80;
 constexpr int kLidarPriority = 70;
 constexpr int kCameraPriority = 65;
 constexpr int kSyncPriority = 60;
 constexpr int kTrackingPriority = 40;
+
+// Who has the lines, by the GPIO driver (drivers/gpio/libgpiod_calls.cc): its interrupts' name.
+constexpr const char* kTriggerInterrupt = "sparsight";
 
 // Two seconds and more of each device.
 constexpr std::size_t kCameraEvents = 64;
@@ -57,7 +61,7 @@ struct LivePipeline::Parts {
                settings("camera", config, kCameraPriority), remarks),
         lidar(stage_device(std::move(devices.lidar)), kLidarEvents,
               settings("lidar", config, kLidarPriority), remarks),
-        trigger(stage_device(std::move(devices.trigger)), kTriggerEvents,
+        trigger(trigger_device(std::move(devices.trigger)), kTriggerEvents,
                 settings("trigger", config, kTriggerPriority), remarks),
         tracking(calibration, odometry),
         window(calibration, odometry),
@@ -83,6 +87,16 @@ struct LivePipeline::Parts {
     }
   }
 
+  // Requesting a line has the kernel make a thread for its interrupt.
+  DeviceStage::Device trigger_device(std::shared_ptr<TriggerLine> line) {
+    DeviceStage::Device device = stage_device(std::move(line));
+    if (!config.realtime) return device;
+    device.streams = [this] {
+      const auto refused = raise_interrupt_threads(kTriggerInterrupt, kInterruptPriority);
+      if (refused) remarks.add(*refused);
+    };
+    return device;
+  }
   std::chrono::nanoseconds period() const {
     return std::chrono::nanoseconds(std::llround(1e9 / config.rate_hz));
   }

@@ -39,7 +39,9 @@ bool TrackingRunner::tick() {
                      kWaitingShare * static_cast<double>(loop_.period().count())));
   while (!any && clock_.now() + kFrameLookAgain < patience) {
     clock_.sleep_until(clock_.now() + kFrameLookAgain);
-    any = track_waiting(tick.due);
+    // Another thread may have had the processor for longer than that: then it is the next tick's,
+    // or this round would end late, and every one after it at the same phase.
+    if (clock_.now() < patience) any = track_waiting(tick.due);
   }
   loop_.shift(any ? phase_.observe(last_ready_, loop_.next()) : phase_.coast());
   shared_.phase_locked.store(phase_.locked(), std::memory_order_relaxed);

@@ -64,6 +64,8 @@ class VisitedPlaces {
 // A start that finds more than this share of the patches is as good as right.
 constexpr double kFoundAtStart = 0.4;
 constexpr double kDoubtful = 0.6;
+// No other minimum finds so much: on fast roads the wrong ones find up to 0.7.
+constexpr double kBeyondDoubt = 0.8;
 
 PhotometryConfig per_pixel(PhotometryConfig photometry) {
   photometry.patch_weights = false;
@@ -257,7 +259,8 @@ TrackingResult Tracker::track(const TrackingTarget& keyframe, const ImagePyramid
   result.attempts = 1;
   // Much less found than in the frame before: perhaps the wrong minimum.
   const bool doubtful = result.found_share < std::max(kDoubtful * start.found_share, kWellFound);
-  if (!config_.try_other_starts || (known && result.ok() && !doubtful)) return result;
+  const bool settled = known ? !doubtful : result.found_share >= kBeyondDoubt;
+  if (!config_.try_other_starts || (result.ok() && settled)) return result;
 
   const TrackingResult searched = search(keyframe, image, start, levels - 1, result);
   const int attempts = result.attempts + searched.attempts;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/build_paths.h"
+
 namespace sparsight::layering {
 namespace {
 
@@ -48,7 +50,7 @@ TEST(DocumentPaths, AreReportedWithTheirLineWhenMissing) {
 }
 
 TEST(ThisTree, HasEveryFileItsDocumentsName) {
-  const fs::path top = SPARSIGHT_SOURCE_DIR;
+  const fs::path top = testing::source_dir();
   std::vector<fs::path> documents = {"README.md", "CHANGELOG.md"};
   for (const fs::directory_entry& entry : fs::directory_iterator{top / "docs"}) {
     if (entry.path().extension() == ".md") documents.push_back(fs::relative(entry.path(), top));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "tests/build_paths.h"
 #include "tests/layering/layer_rules.h"
 #include "tests/layering/source_tree.h"
 
@@ -13,7 +14,7 @@ namespace {
 using ::testing::IsEmpty;
 
 const std::vector<SourceFile>& sources() {
-  static const std::vector<SourceFile> kSources = read_sources(SPARSIGHT_SOURCE_DIR);
+  static const std::vector<SourceFile> kSources = read_sources(testing::source_dir());
   return kSources;
 }
 

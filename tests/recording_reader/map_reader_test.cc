@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "tests/build_paths.h"
 #include "tools/cloud/las_writer.h"
 
 // The map as LAS 1.4, read by copc (the reader of the author of Entwine and COPC): what it checks
@@ -16,8 +17,9 @@ namespace {
 using nlohmann::json;
 
 json read_independently(const std::filesystem::path& file) {
+  const auto reader = testing::build_dir() / "tests/recording_reader/npm/read_map.mjs";
   const std::string command =
-      fmt::format("'{}' '{}' '{}' 2>&1", SPARSIGHT_NODE, SPARSIGHT_MAP_READER, file.string());
+      fmt::format("'{}' '{}' '{}' 2>&1", SPARSIGHT_NODE, reader.string(), file.string());
   std::string output;
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return {};

@@ -9,6 +9,7 @@
 #include "drivers/recording/crc32.h"
 #include "drivers/recording/recorder.h"
 #include "drivers/recording/recover.h"
+#include "tests/build_paths.h"
 #include "tests/drivers/datasets/small_dataset.h"
 #include "tests/drivers/recording/made_events.h"
 #include "tests/drivers/recording/made_recording.h"
@@ -32,8 +33,9 @@ struct Reading {
 };
 
 Reading read_independently(const std::filesystem::path& file) {
+  const auto reader = testing::build_dir() / "tests/recording_reader/npm/read_recording.mjs";
   const std::string command =
-      fmt::format("'{}' '{}' '{}' 2>&1", SPARSIGHT_NODE, SPARSIGHT_READER, file.string());
+      fmt::format("'{}' '{}' '{}' 2>&1", SPARSIGHT_NODE, reader.string(), file.string());
   Reading reading;
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return reading;

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <thread>
 
+#include "tests/build_paths.h"
 #include "tests/system/program.h"
 
 namespace sparsight {
@@ -36,12 +37,12 @@ class RunningProgram {
  public:
   explicit RunningProgram(const std::vector<std::string>& arguments) : pid_(fork()) {
     if (pid_ != 0) return;
-    std::vector<std::string> words{SPARSIGHT_PROGRAM};
+    std::vector<std::string> words{testing::program()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
-    execv(SPARSIGHT_PROGRAM, argv.data());
+    execv(argv.front(), argv.data());
     _exit(127);
   }
   // The status as of waitpid.
@@ -163,8 +164,8 @@ TEST(LiveRun, RecordsWithoutTracking) {
 TEST(LiveRun, GoesOnThoughNoDeviceIsThereAndSaysSo) {
   const fs::path folder = scratch_folder() / "session";
   const ProgramRun run =
-      run_sparsight({"run", "--rig", fs::path(SPARSIGHT_SOURCE_DIR) / "config/rig/handheld.toml",
-                     "--output", folder, "--seconds", "0.6", "--no-map"});
+      run_sparsight({"run", "--rig", testing::source_dir() / "config/rig/handheld.toml", "--output",
+                     folder, "--seconds", "0.6", "--no-map"});
   EXPECT_EQ(run.exit_code, 1) << "nothing was tracked";
   EXPECT_NE(run.errors.find("camera is gone"), std::string::npos) << run.errors;
   EXPECT_NE(run.errors.find("/dev/video0"), std::string::npos) << run.errors;

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/build_paths.h"
+
 namespace sparsight {
 namespace {
 
@@ -26,7 +28,7 @@ ProgramRun run_sparsight(const std::vector<std::string>& arguments) {
   const fs::path stem = fs::path(::testing::TempDir()) / ("sparsight_" + std::to_string(getpid()));
   const std::string output = stem.string() + ".out";
   const std::string errors = stem.string() + ".err";
-  std::string command = quoted(SPARSIGHT_PROGRAM);
+  std::string command = quoted(testing::program());
   for (const std::string& argument : arguments) command += " " + quoted(argument);
   const int status = std::system((command + " >" + output + " 2>" + errors).c_str());
   ProgramRun run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(output), text_of(errors)};

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "tests/build_paths.h"
 #include "tests/system/program.h"
 
 namespace sparsight {
@@ -11,11 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-fs::path recordings() {
-  const char* folder = std::getenv("SPARSIGHT_DATA");
-  return folder != nullptr ? fs::path(folder)
-                           : fs::path(SPARSIGHT_SOURCE_DIR) / ".." / "shared" / "data";
-}
+using testing::recordings;
 
 // The errors over 10 to 50 m of a replay with the one configuration for everything.
 json replay_and_evaluate(const fs::path& source, const fs::path& truth, const std::string& rays,

@@ -169,6 +169,7 @@ class LiveRun {
     status_ = pipeline_.look();
     for (const std::string& remark : pipeline_.remarks()) note(remark);
     tell_devices();
+    tell_recording();
     const auto now = Clock::now();
     if (const auto interval = service.watchdog_interval(); interval && now >= next_feed_) {
       next_feed_ = now + *interval;
@@ -189,6 +190,14 @@ class LiveRun {
       say(fmt::format("{} is {}{}{}", name, name_of(device->state),
                       device->message.empty() ? "" : ": ", device->message));
     }
+  }
+
+  // Once: what ended it does not go away by itself.
+  void tell_recording() {
+    if (!recorder_ || recording_ended_) return;
+    const RecorderReport report = recorder_->report();
+    recording_ended_ = report.state != RecorderState::kRecording;
+    if (recording_ended_) say(report.message);
   }
 
   void show(const ServiceNotifier& service) {
@@ -260,10 +269,15 @@ class LiveRun {
   }
 
   void note_recording(const RecorderReport& report, Session& session) const {
-    session.notes.push_back(fmt::format("recorded {:.1f} MB: {} frames, {} LiDAR packets, {} edges",
-                                        1e-6 * static_cast<double>(report.bytes_written),
-                                        status_.camera.events, status_.lidar.events,
-                                        status_.trigger.events));
+    session.notes.push_back(fmt::format(
+        "recorded {:.1f} MB; the devices delivered {} frames, {} LiDAR packets, {} edges",
+        1e-6 * static_cast<double>(report.bytes_written), status_.camera.events,
+        status_.lidar.events, status_.trigger.events));
+    if (report.events_refused > 0) {
+      session.notes.push_back(
+          fmt::format("{} of these came after the recording had ended, and are not in it",
+                      report.events_refused));
+    }
     if (!report.message.empty()) session.notes.push_back(report.message);
     if (report.lost_anything_raw()) {
       session.notes.push_back(fmt::format(
@@ -304,6 +318,7 @@ class LiveRun {
   Clock::time_point shown_wall_ = Clock::now();
   Clock::time_point next_show_ = Clock::now() + kShowPeriod;
   Clock::time_point next_feed_ = Clock::now();
+  bool recording_ended_ = false;
   DeviceState told_[3] = {DeviceState::kStreaming, DeviceState::kStreaming,
                           DeviceState::kStreaming};
 };

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   sparsight::add_evaluate(app, exit_code);
   sparsight::add_simulate(app, exit_code);
   sparsight::add_benchmark(app, exit_code);
+  sparsight::add_hil(app, exit_code);
   sparsight::add_recover(app, exit_code);
   sparsight::add_doctor(app, exit_code);
   sparsight::add_optimise(app, exit_code);

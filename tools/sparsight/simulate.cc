@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/session/simulate_session.h"
+#include "tools/sparsight/fault_options.h"
 #include "tools/sparsight/subcommands.h"
 
 namespace sparsight {
@@ -17,9 +18,6 @@ namespace {
 const std::map<std::string, SimulatedScene> kScenes{{"corridor", SimulatedScene::kCorridor},
                                                     {"hall", SimulatedScene::kHall},
                                                     {"street", SimulatedScene::kStreet}};
-const std::map<std::string, DeviceKind> kDevices{{"camera", DeviceKind::kCamera},
-                                                 {"lidar", DeviceKind::kLidar},
-                                                 {"trigger", DeviceKind::kTrigger}};
 const std::map<std::string, ReturnMode> kReturnModeNames{{"strongest", ReturnMode::kStrongest},
                                                          {"last", ReturnMode::kLast},
                                                          {"dual", ReturnMode::kDual}};
@@ -38,28 +36,9 @@ struct SimulateArguments {
   bool quiet = false;
 };
 
-std::chrono::nanoseconds from_seconds(double seconds) {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-      std::chrono::duration<double>(seconds));
-}
-
 bool read_size(const std::string& text, SimulationOptions& options) {
   char rest = 0;
   return std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &rest) == 2;
-}
-
-// DEVICE:FROM:SECONDS
-bool read_away(const std::string& text, SimulatedFaults& faults) {
-  const std::size_t colon = text.find(':');
-  const auto device = kDevices.find(text.substr(0, colon));
-  if (colon == std::string::npos || device == kDevices.end()) return false;
-  double from = 0.0;
-  double lasting = 0.0;
-  char rest = 0;
-  if (std::sscanf(text.c_str() + colon, ":%lf:%lf%c", &from, &lasting, &rest) != 2) return false;
-  if (!(from >= 0.0 && lasting > 0.0 && from < 1e5 && lasting < 1e5)) return false;
-  faults.away.push_back({device->second, from_seconds(from), from_seconds(lasting)});
-  return true;
 }
 
 // FROM:SECONDS; `least` is that of the second.
@@ -91,18 +70,18 @@ int usage(const std::string& problem) {
 
 int simulate(SimulateArguments arguments) {
   SimulationOptions& options = arguments.session.options;
-  options.duration = from_seconds(arguments.duration_s);
+  options.duration = seconds_given(arguments.duration_s);
   options.exposure = std::chrono::microseconds(static_cast<long>(1000.0 * arguments.exposure_ms));
   options.lens = arguments.rectified ? SimulatedLens::kRectified : SimulatedLens::kMild;
   options.pps = !arguments.no_pps;
   if (!read_size(arguments.size, options)) return usage("--size is WIDTHxHEIGHT, as in 800x600");
   if (arguments.clock_jump.size() == 2) {
-    options.faults.lidar_clock_jump = {from_seconds(arguments.clock_jump[0]),
-                                       from_seconds(arguments.clock_jump[1])};
+    options.faults.lidar_clock_jump = {seconds_given(arguments.clock_jump[0]),
+                                       seconds_given(arguments.clock_jump[1])};
   }
   for (const std::string& away : arguments.away) {
     if (!read_away(away, options.faults)) {
-      return usage("--away is camera|lidar|trigger:FROM:SECONDS, as in camera:10:3, not " + away);
+      return usage(away_usage(away));
     }
   }
   for (const std::string& covered : arguments.covered) {

@@ -13,6 +13,7 @@ void add_replay(CLI::App& app, int& exit_code);
 void add_evaluate(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
 void add_benchmark(CLI::App& app, int& exit_code);
+void add_hil(CLI::App& app, int& exit_code);
 void add_recover(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_optimise(CLI::App& app, int& exit_code);

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "drivers/datasets/open_dataset.h"
-#include "tests/drivers/datasets/recordings.h"
+#include "tests/build_paths.h"
 
 // What is known of the real recordings, by their authors' description or by counting.
 namespace sparsight {

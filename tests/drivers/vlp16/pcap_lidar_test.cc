@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "drivers/vlp16/vlp16_decoder.h"
-#include "tests/drivers/datasets/recordings.h"
+#include "tests/build_paths.h"
 #include "tests/drivers/vlp16/made_capture.h"
 #include "tests/drivers/vlp16/made_packets.h"
 

@@ -6,7 +6,7 @@
 
 #include "drivers/vlp16/sweep_assembler.h"
 #include "drivers/vlp16/vlp16_decoder.h"
-#include "tests/drivers/datasets/recordings.h"
+#include "tests/build_paths.h"
 
 // A real sensor's packets, single return, 1.33 s at about 10 revolutions per second.
 namespace sparsight {

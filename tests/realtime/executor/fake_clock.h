@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "realtime/executor/loop_clock.h"
@@ -13,10 +14,12 @@ class FakeClock final : public LoopClock {
   void sleep_until(HostTime time) noexcept override {
     if (time > now_) now_ = time;
     ++sleeps;
+    if (after_sleep) after_sleep();
   }
   void advance(std::chrono::nanoseconds by) { now_ += by; }
 
   int sleeps = 0;
+  std::function<void()> after_sleep;  // what happens before the sleeper has the processor again
 
  private:
   HostTime now_{std::chrono::seconds(1000)};

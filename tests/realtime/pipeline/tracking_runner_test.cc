@@ -171,6 +171,23 @@ TEST(TrackingRunner, LooksAgainForAFrameThatIsALittleLateAndGoesOnWithoutOneThat
   EXPECT_LE(waited, kRoomPeriod * 7 / 4 + 2ms) << "it never waits into the next frame's time";
 }
 
+TEST(TrackingRunner, LeavesToTheNextTickWhatCameWhileAnotherThreadHadTheProcessor) {
+  Rounds rounds;
+  rounds.arrive(0);
+  rounds.tick();
+  // It looks for frame 1, which comes late; putting it together keeps this thread from running.
+  int sleeps = 0;
+  rounds.clock.after_sleep = [&] {
+    if (++sleeps != 3) return;
+    rounds.clock.advance(90ms);
+    rounds.arrive(1);
+  };
+  EXPECT_FALSE(rounds.tick());
+  EXPECT_TRUE(rounds.tick());
+  EXPECT_EQ(rounds.last_record().sequence, 1U);
+  EXPECT_EQ(rounds.shared.counters.deadlines_missed, 0U);
+}
+
 TEST(TrackingRunner, CountsAMissedDeadlineAndEveryFrameOfABacklog) {
   Rounds rounds;
   rounds.arrive(0);

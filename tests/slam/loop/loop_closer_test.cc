@@ -9,13 +9,14 @@
 
 #include "slam/loop/integrated_depth.h"
 #include "slam/points/camera_returns.h"
+#include "tests/build_paths.h"
 #include "tests/synthetic/scene.h"
 
 namespace sparsight {
 namespace {
 
 std::shared_ptr<const Vocabulary> shipped_vocabulary() {
-  std::ifstream file(SPARSIGHT_SOURCE_DIR "/config/vocabulary.bin", std::ios::binary);
+  std::ifstream file(testing::source_dir() / "config/vocabulary.bin", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   return std::make_shared<const Vocabulary>(
       Vocabulary::from_bytes(bytes, "config/vocabulary.bin").value());

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/build_paths.h"
 #include "tests/tools/configuration/field_counter.h"
 #include "tools/configuration/odometry_fields.h"
 
@@ -21,7 +22,7 @@ std::string error_of(std::string_view toml) {
 
 TEST(Profile, EveryShippedFileLoadsAndIsBuiltIn) {
   int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(SPARSIGHT_SOURCE_DIR "/config")) {
+  for (const auto& entry : std::filesystem::directory_iterator(testing::source_dir() / "config")) {
     if (entry.path().extension() != ".toml") continue;  // config/rig/, the vocabulary
     const auto from_file = load_profile(entry.path());
     ASSERT_TRUE(from_file) << from_file.error().message;

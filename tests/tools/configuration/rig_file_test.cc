@@ -9,6 +9,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "tests/build_paths.h"
 #include "tests/tools/configuration/field_counter.h"
 #include "tools/configuration/rig_fields.h"
 
@@ -24,7 +25,7 @@ std::string rig_error(std::string_view toml) {
 }
 
 TEST(RigFile, TheShippedRigLoadsAndShowsEveryKey) {
-  const auto rig = load_rig(SPARSIGHT_SOURCE_DIR "/config/rig/handheld.toml");
+  const auto rig = load_rig(testing::source_dir() / "config/rig/handheld.toml");
   ASSERT_TRUE(rig) << rig.error().message;
   EXPECT_EQ(rig->name, "handheld");
   EXPECT_EQ(rig->camera.exposure, std::chrono::microseconds(4000));
@@ -32,7 +33,7 @@ TEST(RigFile, TheShippedRigLoadsAndShowsEveryKey) {
   EXPECT_EQ(rig->lidar.return_mode, ReturnMode::kStrongest);
   EXPECT_EQ(rig->trigger.pps_line, 27U);
 
-  std::ifstream file(SPARSIGHT_SOURCE_DIR "/config/rig/handheld.toml");
+  std::ifstream file(testing::source_dir() / "config/rig/handheld.toml");
   const std::string text(std::istreambuf_iterator<char>(file), {});
   RigConfig all = *rig;
   all.lidar.elevation_deg.emplace();
@@ -49,7 +50,7 @@ TEST(RigFile, TheShippedRigLoadsAndShowsEveryKey) {
 }
 
 TEST(RigFile, TheShippedTransformPutsWhatIsAheadOfTheLidarAheadOfTheCamera) {
-  const RigConfig rig = load_rig(SPARSIGHT_SOURCE_DIR "/config/rig/handheld.toml").value();
+  const RigConfig rig = load_rig(testing::source_dir() / "config/rig/handheld.toml").value();
   const Eigen::Isometry3d& T_camera_lidar = rig.calibration.T_camera_lidar;
   const Eigen::Vector3d ahead = T_camera_lidar * Eigen::Vector3d(5, 0, 0);
   EXPECT_TRUE(ahead.isApprox(Eigen::Vector3d(0.0, -0.12, 4.95), 1e-12)) << ahead.transpose();

@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "tests/build_paths.h"
 #include "tests/tools/evaluation/paths.h"
 
 namespace sparsight {

@@ -93,10 +93,4 @@ inline Trajectory arbitrary_path(std::size_t frames) {
   return trajectory;
 }
 
-inline std::filesystem::path recordings() {
-  const char* folder = std::getenv("SPARSIGHT_DATA");
-  return folder != nullptr ? std::filesystem::path(folder)
-                           : std::filesystem::path(SPARSIGHT_SOURCE_DIR) / "../shared/data";
-}
-
 }  // namespace sparsight::testing

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "slam/graph/edge_error.h"
+#include "tests/build_paths.h"
 #include "tools/evaluation/text_file.h"
 #include "tools/graph/optimise_graph.h"
 #include "tools/session/atomic_file.h"
@@ -116,11 +117,7 @@ TEST(OptimiseGraph, WritesAFileThatIsAtItsOptimum) {
   EXPECT_LT(graph_cost(written->graph, 0.0), 1e-12);
 }
 
-fs::path published_graph(const char* name) {
-  const char* data = std::getenv("SPARSIGHT_DATA");
-  return fs::path(data != nullptr ? data : SPARSIGHT_SOURCE_DIR "/../shared/data") / "graphs" /
-         name;
-}
+fs::path published_graph(const char* name) { return testing::recordings() / "graphs" / name; }
 
 TEST(OptimiseGraph, ReachesTheOptimumOfAPublishedGraph) {
   const fs::path file = published_graph("smallGrid3D.g2o");

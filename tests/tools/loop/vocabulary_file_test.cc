@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "slam/loop/orb_features.h"
+#include "tests/build_paths.h"
 #include "tools/evaluation/text_file.h"
 #include "tools/loop/training_images.h"
 #include "tools/session/atomic_file.h"
@@ -16,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-const std::string kShipped = SPARSIGHT_SOURCE_DIR "/config/vocabulary.bin";
+const fs::path kShipped = testing::source_dir() / "config/vocabulary.bin";
 
 TEST(VocabularyFile, TheProgramCarriesTheShippedOne) {
   const auto shipped = load_vocabulary(kShipped);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/build_paths.h"
 #include "tools/evaluation/trajectory.h"
 
 namespace sparsight {
@@ -23,7 +24,8 @@ struct ProgramRun {
 };
 
 ProgramRun replay(const std::string& arguments) {
-  std::FILE* pipe = ::popen((SPARSIGHT_PROGRAM " replay " + arguments + " 2>&1").c_str(), "r");
+  const std::string command = testing::program().string() + " replay " + arguments + " 2>&1";
+  std::FILE* pipe = ::popen(command.c_str(), "r");
   std::string output;
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) output += static_cast<char>(c);
   return {WEXITSTATUS(::pclose(pipe)), output};
@@ -60,9 +62,7 @@ TEST(Replay, SourceThatIsNotThereExitsWithOneAndLeavesNoFolder) {
 class ReplayOfRecording : public ::testing::Test {
  protected:
   void SetUp() override {
-    const char* data = std::getenv("SPARSIGHT_DATA");
-    sequence_ = fs::path(data ? data : SPARSIGHT_SOURCE_DIR "/../shared/data") /
-                "kitti/odometry/sequences/04";
+    sequence_ = testing::recordings() / "kitti/odometry/sequences/04";
     if (!fs::exists(sequence_)) GTEST_SKIP() << sequence_ << " is not there; set SPARSIGHT_DATA";
   }
 
