@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/geometry/se3.h"
+
 namespace sparsight {
 namespace {
-
-double degrees_of(const Eigen::Isometry3d& T) {
-  return Eigen::AngleAxisd(T.linear()).angle() * 180.0 / M_PI;
-}
 
 // The loop as seen from its other end, and so in the order of another one.
 struct Directed {

@@ -17,10 +17,6 @@ constexpr double kFloorM = 0.01;
 constexpr double kStartErrorPx = 4.0;  // of a pose from matches
 constexpr double kFaint = 1e-3;        // information that keeps a matrix invertible
 
-double degrees_of(const Eigen::Isometry3d& T) {
-  return Eigen::AngleAxisd(T.linear()).angle() * 180.0 / M_PI;
-}
-
 TrackerConfig single_start(TrackerConfig config, int min_points) {
   config.try_other_starts = false;
   config.min_points = min_points;
