@@ -69,8 +69,4 @@ Eigen::Isometry3d renormalized(const Eigen::Isometry3d& T) {
   return result;
 }
 
-double degrees_of(const Eigen::Isometry3d& T) {
-  return Eigen::AngleAxisd(T.linear()).angle() * 180.0 / M_PI;
-}
-
 }  // namespace sparsight

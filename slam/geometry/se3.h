@@ -27,7 +27,4 @@ double rotation_deg(const Eigen::Isometry3d& T);
 // The nearest rigid transformation, against the rounding of long products.
 Eigen::Isometry3d renormalized(const Eigen::Isometry3d& T);
 
-// Angle by which it turns, 0 to 180.
-double degrees_of(const Eigen::Isometry3d& T);
-
 }  // namespace sparsight
