@@ -59,6 +59,10 @@ Matrix6d adjoint(const Eigen::Isometry3d& T) {
   return A;
 }
 
+double rotation_deg(const Eigen::Isometry3d& T) {
+  return Eigen::AngleAxisd(T.linear()).angle() * 180.0 / M_PI;
+}
+
 Eigen::Isometry3d renormalized(const Eigen::Isometry3d& T) {
   Eigen::Isometry3d result = T;
   result.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();

@@ -21,6 +21,9 @@ Vector6d log_se3(const Eigen::Isometry3d& T);
 // T * exp(xi) = exp(adjoint(T) * xi) * T.
 Matrix6d adjoint(const Eigen::Isometry3d& T);
 
+// How far T turns, about whichever axis: 0 to 180.
+double rotation_deg(const Eigen::Isometry3d& T);
+
 // The nearest rigid transformation, against the rounding of long products.
 Eigen::Isometry3d renormalized(const Eigen::Isometry3d& T);
 

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/geometry/se3.h"
+
 namespace sparsight {
 namespace {
-
-double turned_deg(const Eigen::Isometry3d& T) {
-  return Eigen::AngleAxisd(T.linear()).angle() * 180.0 / M_PI;
-}
 
 // The loop as seen from its other end, and so in the order of another one.
 struct Directed {
@@ -47,13 +45,13 @@ bool JoinEvidence::agree(const SeenAgain& a, const SeenAgain& b, const PoseGraph
   const Eigen::Isometry3d difference = expected.inverse() * other.T_from_to;
   return difference.translation().norm() <=
              config_.max_disagreement_m + config_.max_disagreement_share * way_m &&
-         turned_deg(difference) <= config_.max_disagreement_deg;
+         rotation_deg(difference) <= config_.max_disagreement_deg;
 }
 
 bool JoinEvidence::apart(const SeenAgain& a, const SeenAgain& b, const PoseGraph& graph,
                          bool crosswise) const {
   const Eigen::Isometry3d T = between(graph, a.current, directed(b, crosswise).from);
-  return T.translation().norm() >= config_.min_apart_m || turned_deg(T) >= config_.min_apart_deg;
+  return T.translation().norm() >= config_.min_apart_m || rotation_deg(T) >= config_.min_apart_deg;
 }
 
 std::vector<SeenAgain> JoinEvidence::add(const SeenAgain& loop, const LoopGraph& graph) {

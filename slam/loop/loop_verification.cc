@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/geometry/se3.h"
 #include "slam/loop/integrated_depth.h"
 #include "slam/loop/pose_from_matches.h"
 
@@ -16,10 +17,6 @@ constexpr double kFloorRad = 0.1 * M_PI / 180.0;
 constexpr double kFloorM = 0.01;
 constexpr double kStartErrorPx = 4.0;  // of a pose from matches
 constexpr double kFaint = 1e-3;        // information that keeps a matrix invertible
-
-double degrees_of(const Eigen::Isometry3d& T) {
-  return Eigen::AngleAxisd(T.linear()).angle() * 180.0 / M_PI;
-}
 
 TrackerConfig single_start(TrackerConfig config, int min_points) {
   config.try_other_starts = false;
@@ -151,7 +148,7 @@ LoopCheck LoopVerifier::check(const LoopView& current, const LoopView& candidate
   const Eigen::Isometry3d disagreement = T_forth * T_back.inverse();
   const Eigen::Isometry3d from_start = T_forth * start.T_current_candidate.inverse();
   check.disagreement_m = (T_forth.translation() - T_back.translation()).norm();
-  check.disagreement_deg = degrees_of(disagreement);
+  check.disagreement_deg = rotation_deg(disagreement);
   const double from_start_m =
       (T_forth.translation() - start.T_current_candidate.translation()).norm();
 
@@ -163,7 +160,7 @@ LoopCheck LoopVerifier::check(const LoopView& current, const LoopView& candidate
   if (check.disagreement_m > config_.max_disagreement_m ||
       check.disagreement_deg > config_.max_disagreement_deg ||
       from_start_m > config_.max_from_start_m ||
-      degrees_of(from_start) > config_.max_from_start_deg) {
+      rotation_deg(from_start) > config_.max_from_start_deg) {
     check.verdict = Verdict::kDisagreement;
   } else if (check.overlap < config_.min_overlap) {
     check.verdict = Verdict::kLittleOverlap;
