@@ -6,7 +6,7 @@
 namespace sparsight {
 namespace {
 
-double degrees_of(const Eigen::Isometry3d& T) {
+double turn_deg(const Eigen::Isometry3d& T) {
   return Eigen::AngleAxisd(T.linear()).angle() * 180.0 / M_PI;
 }
 
@@ -47,13 +47,13 @@ bool JoinEvidence::agree(const SeenAgain& a, const SeenAgain& b, const PoseGraph
   const Eigen::Isometry3d difference = expected.inverse() * other.T_from_to;
   return difference.translation().norm() <=
              config_.max_disagreement_m + config_.max_disagreement_share * way_m &&
-         degrees_of(difference) <= config_.max_disagreement_deg;
+         turn_deg(difference) <= config_.max_disagreement_deg;
 }
 
 bool JoinEvidence::apart(const SeenAgain& a, const SeenAgain& b, const PoseGraph& graph,
                          bool crosswise) const {
   const Eigen::Isometry3d T = between(graph, a.current, directed(b, crosswise).from);
-  return T.translation().norm() >= config_.min_apart_m || degrees_of(T) >= config_.min_apart_deg;
+  return T.translation().norm() >= config_.min_apart_m || turn_deg(T) >= config_.min_apart_deg;
 }
 
 std::vector<SeenAgain> JoinEvidence::add(const SeenAgain& loop, const LoopGraph& graph) {
