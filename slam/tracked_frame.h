@@ -16,12 +16,15 @@ struct FrameOutcome {
     kTracked,    // pose measured against a keyframe
     kFirst,      // defines the world frame
     kPredicted,  // not measured: no image, or tracking failed from every start
-    kLost,       // nor can it be predicted any more: its pose is the last that could
+    kLost,       // in question for so long that the pose says nothing
   };
   Status status = Status::kPredicted;
   TrackingResult tracking;  // of the best attempt; its pose is the predicted one if none
   std::uint64_t keyframe_sequence = 0;  // the keyframe T_keyframe_camera refers to
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();  // as known at that moment
+  // Missed, or so little was found, and suddenly, that it may be a look-alike: if frames in
+  // question end in a lost one, none of them had a pose.
+  bool in_question = false;
   bool becomes_keyframe = false;  // of a lost frame: the first of a new sub-map
   std::uint32_t submap = 0;  // that the keyframe belongs to: poses of one say nothing of another
 };

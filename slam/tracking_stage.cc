@@ -7,9 +7,13 @@ namespace sparsight {
 namespace {
 
 constexpr double kErrorMemory = 0.7;  // how fast the expected error of the prediction calms down
-// Untracked frames, and the time since the last tracked one, before tracking is lost.
+// Frames in question, and the time since the last that was not, before tracking is lost.
 constexpr int kPatientFrames = 3;
 constexpr double kPatienceS = 0.25;
+// Of the share that was found in the last trusted frame: less puts tracking in question, so much
+// takes it out again. One end of a corridor finds 60 % of the other.
+constexpr double kSuddenly = 0.7;
+constexpr double kAsBefore = 0.8;
 constexpr double kVelocityMemoryS = 1.0;  // after so long without tracking it may be any other
 
 // Of an image relative to a later keyframe, both known relative to an earlier one.
@@ -67,14 +71,15 @@ void TrackingStage::take_up(const TrackingReference& reference) {
   if (submap_ != reference.submap) begin_submap(reference);
   motion_.rebase(reference.keyframe.exposure);
   brightness_ = relative_to(brightness_at_hand_over_, brightness_);
-  untracked_ = 0;
-  T_keyframe_lost_.reset();
-  last_tracked_ = std::max(last_tracked_, reference.keyframe.exposure);
+  last_trusted_ = std::max(last_trusted_, reference.keyframe.exposure);
 }
 
 void TrackingStage::begin_submap(const TrackingReference& reference) {
   submap_ = reference.submap;
-  if (to_seconds(reference.keyframe.exposure - last_tracked_) < kVelocityMemoryS) return;
+  in_question_ = lost_ = false;
+  questioned_ = 0;
+  trusted_share_ = 0.0;
+  if (to_seconds(reference.keyframe.exposure - last_trusted_) < kVelocityMemoryS) return;
   motion_.restart(reference.keyframe.exposure);
   brightness_ = brightness_at_hand_over_;
   start_error_px_ = std::numeric_limits<double>::infinity();
@@ -91,8 +96,7 @@ FrameOutcome TrackingStage::follow(const SynchronizedFrame& frame,
   result.submap = reference.submap;
   const TrackingStart start{
       .T_keyframe_previous = motion_.last_in_keyframe(),
-      .T_keyframe_predicted =
-          T_keyframe_lost_.value_or(motion_.predict_in_keyframe(frame.exposure)),
+      .T_keyframe_predicted = predicted(frame.exposure),
       .brightness = brightness_,
       .error_px = start_error_px_,
       .found_share = found_share_,
@@ -100,17 +104,14 @@ FrameOutcome TrackingStage::follow(const SynchronizedFrame& frame,
           in_doubt_ < kPatientFrames ? motion_.seconds_since_last(frame.exposure) : std::nullopt,
       .finest_level = finest_level};
   if (!pyramid.empty()) result.tracking = tracker_.track(keyframe, pyramid, start);
-  // Of what is found after a loss nothing else speaks for it.
-  const bool found = T_keyframe_lost_ ? result.tracking.well_found() : result.tracking.ok();
-  if (found) {
+  judge(frame, result.tracking);
+  result.in_question = in_question_;
+  if (result.tracking.ok() && !lost_) {
     result.status = FrameOutcome::Status::kTracked;
-    untracked_ = 0;
-    T_keyframe_lost_.reset();
-    last_tracked_ = frame.exposure;
     learn(frame, reference, result.tracking, start);
   } else {
+    result.status = lost_ ? FrameOutcome::Status::kLost : FrameOutcome::Status::kPredicted;
     result.tracking.T_keyframe_camera = start.T_keyframe_predicted;
-    result.status = miss(frame, start);
   }
   in_doubt_ = result.tracking.well_found() ? 0 : in_doubt_ + 1;
   result.T_world_camera = keyframe.T_world_camera * result.tracking.T_keyframe_camera;
@@ -119,21 +120,33 @@ FrameOutcome TrackingStage::follow(const SynchronizedFrame& frame,
   return result;
 }
 
-FrameOutcome::Status TrackingStage::miss(const SynchronizedFrame& frame,
-                                         const TrackingStart& start) {
-  ++untracked_;
-  if (!T_keyframe_lost_ && untracked_ >= kPatientFrames &&
-      to_seconds(frame.exposure - last_tracked_) >= kPatienceS) {
-    T_keyframe_lost_ = start.T_keyframe_predicted;
+void TrackingStage::judge(const SynchronizedFrame& frame, const TrackingResult& result) {
+  const double as_before = result.found_share / std::max(trusted_share_, kWellFound);
+  if (!result.ok() || as_before < kSuddenly) in_question_ = true;
+  if (result.well_found() && as_before >= kAsBefore) in_question_ = false;
+  if (!in_question_) {
+    lost_ = false;
+    questioned_ = 0;
+    last_trusted_ = frame.exposure;
+    trusted_share_ = result.found_share;
+    return;
   }
-  return T_keyframe_lost_ ? FrameOutcome::Status::kLost : FrameOutcome::Status::kPredicted;
+  ++questioned_;
+  lost_ = lost_ || (questioned_ >= kPatientFrames &&
+                    to_seconds(frame.exposure - last_trusted_) >= kPatienceS);
+}
+
+// As far as the velocity tells.
+Eigen::Isometry3d TrackingStage::predicted(HostTime exposure) const {
+  const auto memory = std::chrono::nanoseconds(std::llround(1e9 * kVelocityMemoryS));
+  return motion_.predict_in_keyframe(std::min(exposure, last_trusted_ + memory));
 }
 
 bool TrackingStage::wants_keyframe(const SynchronizedFrame& frame,
                                    const TrackingReference& reference,
                                    const FrameOutcome& outcome) const {
   using Status = FrameOutcome::Status;
-  if (outcome.status != Status::kTracked) return outcome.status == Status::kLost;
+  if (outcome.in_question) return outcome.status == Status::kLost;
   const bool old =
       to_seconds(frame.exposure - reference.keyframe.exposure) >= config_.keyframes.max_age_s;
   const bool little_in_common =

@@ -36,8 +36,9 @@ class TrackingStage {
              const TrackingResult& result, const TrackingStart& start);
   bool wants_keyframe(const SynchronizedFrame& frame, const TrackingReference& reference,
                       const FrameOutcome& outcome) const;
-  // What becomes of a frame that was not found.
-  FrameOutcome::Status miss(const SynchronizedFrame& frame, const TrackingStart& start);
+  // Decides whether tracking is in question, and whether it is lost.
+  void judge(const SynchronizedFrame& frame, const TrackingResult& result);
+  Eigen::Isometry3d predicted(HostTime exposure) const;
 
   RigCalibration calibration_;
   OdometryConfig config_;
@@ -51,10 +52,13 @@ class TrackingStage {
   Brightness brightness_;  // of the last tracked frame relative to the keyframe
   double start_error_px_ = std::numeric_limits<double>::infinity();
   double found_share_ = 0.0;  // of the last tracked frame
-  int untracked_ = 0;         // frames in a row
-  HostTime last_tracked_;     // exposure of the last tracked frame, or of the keyframe if later
-  // Since tracking was lost: where the camera was last thought to be, in the keyframe.
-  std::optional<Eigen::Isometry3d> T_keyframe_lost_;
+  // Since a frame was missed, or much less was found of it than of the one before, and none was
+  // found as well after that: what is found then may be a look-alike.
+  bool in_question_ = false;
+  int questioned_ = 0;          // frames in a row
+  double trusted_share_ = 0.0;  // found of the last frame that was not
+  HostTime last_trusted_;       // its exposure, or the keyframe's if later
+  bool lost_ = false;           // in question for too long
   std::uint32_t submap_ = 0;
   int in_doubt_ = 0;  // frames in a row: their velocity is no ground to refuse another
 };

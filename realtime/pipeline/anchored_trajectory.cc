@@ -10,10 +10,9 @@ void AnchoredTrajectory::add(std::uint64_t sequence, HostTime exposure,
                      .T_world_camera = outcome.tracking.T_keyframe_camera,
                      .known = outcome.status != Status::kLost});
   anchors_.push_back(outcome.keyframe_sequence);
-  if (outcome.status == Status::kLost) {
-    for (; predicted_ > 0; --predicted_) frames_[frames_.size() - 1 - predicted_].known = false;
-  }
-  predicted_ = outcome.status == Status::kPredicted ? predicted_ + 1 : 0;
+  questioned_ = outcome.in_question ? questioned_ + 1 : 0;
+  if (outcome.status != Status::kLost) return;
+  for (; questioned_ > 0; --questioned_) frames_[frames_.size() - questioned_].known = false;
 }
 
 void AnchoredTrajectory::settle(std::uint64_t keyframe, const Eigen::Isometry3d& T_world_keyframe) {

@@ -11,8 +11,8 @@
 namespace sparsight {
 
 // Frames hang on keyframes; they are placed once their keyframe's pose is final. A frame that was
-// lost has no place, unless it became a keyframe itself; nor have those before it that were
-// predicted while nobody knew that tracking would not come back. Thread-bound.
+// lost has no place, unless it became a keyframe itself; nor have those before it that were in
+// question when tracking was given up. Thread-bound.
 class AnchoredTrajectory {
  public:
   void add(std::uint64_t sequence, HostTime exposure, const FrameOutcome& outcome);
@@ -26,7 +26,7 @@ class AnchoredTrajectory {
 
  private:
   std::vector<TrajectoryPose> frames_;  // relative to their anchors
-  std::size_t predicted_ = 0;           // the last so many frames
+  std::size_t questioned_ = 0;          // the last so many frames
   std::vector<std::uint64_t> anchors_;
   std::map<std::uint64_t, Eigen::Isometry3d> T_world_keyframe_;
 };

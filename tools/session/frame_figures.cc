@@ -14,6 +14,7 @@ FrameFigures figures_of(const FrameRecord& record) {
           .attempts = outcome.tracking.attempts,
           .sigma_grey = outcome.tracking.residual_sigma_grey,
           .visible_ratio = outcome.tracking.visible_ratio,
+          .found_share = outcome.tracking.found_share,
           .tracking_time = record.tracking_time,
           .window_time = record.window_time,
           .T_world_camera = outcome.T_world_camera};
@@ -34,15 +35,15 @@ const char* name_of(FrameOutcome::Status status) {
 }
 
 std::string frames_csv_header() {
-  return "sequence,time,status,points,sigma,visible_ratio,attempts,keyframe,tracking_ms,"
-         "window_ms\n";
+  return "sequence,time,status,points,sigma,visible_ratio,found_share,attempts,keyframe,"
+         "tracking_ms,window_ms\n";
 }
 
 std::string frames_csv_line(const FrameFigures& frame) {
-  return fmt::format("{},{:.9f},{},{},{:.4f},{:.4f},{},{},{:.4f},{:.4f}\n", frame.sequence,
+  return fmt::format("{},{:.9f},{},{},{:.4f},{:.4f},{:.4f},{},{},{:.4f},{:.4f}\n", frame.sequence,
                      to_seconds(frame.exposure.time_since_epoch()), name_of(frame.status),
-                     frame.points_used, frame.sigma_grey, frame.visible_ratio, frame.attempts,
-                     frame.keyframe ? 1 : 0, to_milliseconds(frame.tracking_time),
+                     frame.points_used, frame.sigma_grey, frame.visible_ratio, frame.found_share,
+                     frame.attempts, frame.keyframe ? 1 : 0, to_milliseconds(frame.tracking_time),
                      to_milliseconds(frame.window_time));
 }
 

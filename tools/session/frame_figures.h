@@ -18,6 +18,7 @@ struct FrameFigures {
   int attempts = 0;
   double sigma_grey = 0.0;
   double visible_ratio = 0.0;
+  double found_share = 0.0;
   std::chrono::nanoseconds tracking_time{};
   std::chrono::nanoseconds window_time{};
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();  // as known when tracked

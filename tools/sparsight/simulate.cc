@@ -53,13 +53,13 @@ std::optional<std::pair<double, double>> read_pair(const std::string& text, doub
 
 bool read_covered(const std::string& text, SimulatedFaults& faults) {
   const auto times = read_pair(text, 0.0);
-  if (times) faults.covered.push_back({from_seconds(times->first), from_seconds(times->second)});
+  if (times) faults.covered.push_back({seconds_given(times->first), seconds_given(times->second)});
   return times.has_value();
 }
 
 bool read_carried(const std::string& text, SimulatedFaults& faults) {
   const auto times = read_pair(text, -1e5);
-  if (times) faults.carried.push_back({from_seconds(times->first), from_seconds(times->second)});
+  if (times) faults.carried.push_back({seconds_given(times->first), seconds_given(times->second)});
   return times.has_value();
 }
 
