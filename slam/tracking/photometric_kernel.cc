@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+// The kernels keep vectors in arrays, which SVE's, whose size the machine decides, cannot be in;
+// arm64 runs NEON.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "slam/tracking/photometric_kernel.cc"
 #include <hwy/foreach_target.h>
