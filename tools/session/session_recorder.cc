@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "tools/configuration/profile.h"
@@ -41,6 +42,15 @@ std::vector<TrajectoryPose> poses_as_tracked(const std::vector<FrameFigures>& fr
                           frame.status != FrameOutcome::Status::kLost});
   }
   return trajectory;
+}
+
+// While it is lost every frame is offered to the window, which takes the first that shows anything.
+void forget_refused_keyframes(Session& session) {
+  const std::set<std::uint64_t> taken(session.keyframes.begin(), session.keyframes.end());
+  for (FrameFigures& frame : session.frames) {
+    if (frame.status != FrameOutcome::Status::kLost) continue;
+    frame.keyframe = frame.keyframe && taken.contains(frame.sequence);
+  }
 }
 
 }  // namespace
@@ -127,6 +137,7 @@ void SessionRecorder::end(ReplayTrajectories trajectories, std::chrono::nanoseco
     session_.trajectory = std::move(trajectories.corrected);
     session_.odometry = std::move(trajectories.odometry);
   }
+  forget_refused_keyframes(session_);
   if (composer_) compose_map(trajectories.placed);
   note_keyframes();
   session_.wall_time = wall_time;
