@@ -46,8 +46,8 @@ TEST(MapSession, IsFoundAgainByTheNextSessionAndLeftAsTheUnion) {
   EXPECT_EQ(text_of(map / "map.index"), before);
 
   fs::resize_file(map / "map.index", before.size() / 2);
-  const ProgramRun damaged = run_sparsight(
-      {"replay", recording, "--output", folder / "fourth", "--map", map, "--quiet"});
+  const ProgramRun damaged =
+      run_sparsight({"replay", recording, "--output", folder / "fourth", "--map", map, "--quiet"});
   EXPECT_EQ(damaged.exit_code, 1);
   EXPECT_THAT(damaged.errors, ::testing::HasSubstr("map.index: is cut off"));
 }

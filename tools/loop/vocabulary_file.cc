@@ -4,9 +4,12 @@
 
 #include "tools/evaluation/text_file.h"
 
-// The file's bytes, into the program as they are.
+// The file's bytes, into the program as they are. (The labels are global, for arm64's linker
+// forgets how far into its section a local one is.)
 __asm__(
     ".section .rodata\n"
+    ".globl sparsight_vocabulary_begin, sparsight_vocabulary_end\n"
+    ".hidden sparsight_vocabulary_begin, sparsight_vocabulary_end\n"
     ".balign 16\n"
     "sparsight_vocabulary_begin:\n"
     ".incbin \"" SPARSIGHT_VOCABULARY
