@@ -29,11 +29,12 @@ TrackingStage::TrackingStage(const RigCalibration& calibration, const OdometryCo
       config_(config),
       tracker_(CameraModel(calibration.camera), config.tracker, config.photometry) {}
 
-void TrackingStage::prepare(TrackedFrame& out) const {
+void TrackingStage::prepare(TrackedFrame& out) {
   GreyImage image{.width = calibration_.camera.width, .height = calibration_.camera.height};
   image.pixels.resize(static_cast<std::size_t>(image.width) *
                       static_cast<std::size_t>(image.height));
   out.pyramid.assign(image, config_.tracker.pyramid_levels);
+  tracker_.rehearse_search(out.pyramid);
 }
 
 void TrackingStage::track(const SynchronizedFrame& frame, const TrackingReference& reference,

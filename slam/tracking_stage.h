@@ -24,8 +24,8 @@ class TrackingStage {
   // moves over to it first. `out` is reused. finest_level: see TrackingStart.
   void track(const SynchronizedFrame& frame, const TrackingReference& reference, TrackedFrame& out,
              int finest_level = 0);
-  // Sets aside the memory that frames of the calibrated camera take.
-  void prepare(TrackedFrame& out) const;
+  // Sets aside, and touches, the memory that frames of the calibrated camera take.
+  void prepare(TrackedFrame& out);
 
  private:
   void take_up(const TrackingReference& reference);

@@ -95,6 +95,13 @@ void Tracker::set_camera(const CameraModel& camera) {
   }
 }
 
+void Tracker::rehearse_search(const ImagePyramid& image) {
+  const int levels = std::min(config_.pyramid_levels, image.levels());
+  TrackingTarget nothing;
+  nothing.patches.resize(static_cast<std::size_t>(levels));
+  if (levels > 0) search(nothing, image, {}, levels - 1, {});
+}
+
 Alignment Tracker::refine(const TrackingTarget& keyframe, const ImagePyramid& image,
                           const Alignment& start, int coarsest, int finest,
                           const PhotometryConfig& photometry) {

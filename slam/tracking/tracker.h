@@ -74,6 +74,9 @@ class Tracker {
 
   TrackingResult track(const TrackingTarget& keyframe, const ImagePyramid& image,
                        const TrackingStart& start);
+  // Looks once for a keyframe of nothing. The first search may come late, and what only a search
+  // touches, memory and code, is to be there then without a page fault.
+  void rehearse_search(const ImagePyramid& image);
 
  private:
   // A start and the coarsest level it needs. `found`: most of what the keyframe shows is seen from

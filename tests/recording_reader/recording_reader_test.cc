@@ -55,6 +55,7 @@ void record(const std::filesystem::path& file, const std::vector<RigEvent>& even
   ASSERT_TRUE(writer) << writer.error().message;
   RecordedPose pose{testing::host_ns(1'000'000'000'005)};
   pose.T_world_camera.translation() << 1.5, -2.5, 3.5;
+  pose.T_map_world = Eigen::Isometry3d(Eigen::Translation3d(10.0, 0.0, 0.0));
   for (const RigEvent& event : events) ASSERT_TRUE((*writer)->write(event));
   ASSERT_TRUE((*writer)->write(pose));
   ASSERT_TRUE((*writer)->write(RecordedSyncState{
@@ -191,6 +192,9 @@ TEST(IndependentReader, SeesStatesAndPoses) {
   EXPECT_EQ(transform["child_frame_id"], "camera");
   EXPECT_EQ(transform["transform"]["translation"], json({{"x", 1.5}, {"y", -2.5}, {"z", 3.5}}));
   EXPECT_EQ(transform["transform"]["rotation"]["w"], 1.0);
+  EXPECT_EQ(topics["/map_pose"]["first"]["header"]["frame_id"], "map");
+  EXPECT_EQ(topics["/map_pose"]["first"]["pose"]["position"],
+            json({{"x", 11.5}, {"y", -2.5}, {"z", 3.5}}));
   EXPECT_EQ(topics["/tf_static"]["first"]["transforms"][0]["child_frame_id"], "velodyne");
 }
 

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <optional>
 #include <set>
 
 #include "tests/slam/room_rig.h"
@@ -125,7 +128,7 @@ TEST(Odometry, SaysSoWhileItSeesNothingAndFindsItsWayAgain) {
     SynchronizedFrame dark = rig.frame(i);
     dark.grey = black();
     const FrameOutcome outcome = run.feed(dark);
-    EXPECT_EQ(outcome.status, Status::kPredicted) << i;
+    EXPECT_EQ(outcome.status, i < 10 ? Status::kPredicted : Status::kLost) << i;
     EXPECT_LT(shift_between(outcome.T_world_camera, rig.T_world_camera(i)), 0.03) << i;
   }
   int tracked = 0;
@@ -135,6 +138,85 @@ TEST(Odometry, SaysSoWhileItSeesNothingAndFindsItsWayAgain) {
     EXPECT_LT(shift_between(outcome.T_world_camera, rig.T_world_camera(i)), 0.05) << i;
   }
   EXPECT_GE(tracked, 6);
+}
+
+// Frames of the rig at one time, as if they had been taken at another.
+SynchronizedFrame at_another_time(const RoomRig& rig, int seen, int i) {
+  SynchronizedFrame frame = rig.frame(seen);
+  frame.sequence = static_cast<std::uint64_t>(i);
+  frame.exposure = HostTime(std::chrono::milliseconds(100 * i));
+  return frame;
+}
+
+SynchronizedFrame covered(const RoomRig& rig, int seen, int i) {
+  SynchronizedFrame frame = at_another_time(rig, seen, i);
+  frame.grey = black();
+  return frame;
+}
+
+constexpr int kUncovered = 60;  // the lens was covered for five seconds
+
+TEST(Odometry, WithTheLensCoveredForLongItIsLostWithinHalfASecondAndFoundWhereItWas) {
+  const RoomRig rig;
+  Drive run(rig);
+  for (int i = 0; i < 10; ++i) run.feed(rig.frame(i));
+  for (int i = 10; i < kUncovered; ++i) {
+    const FrameOutcome outcome = run.feed(covered(rig, 9, i));
+    if (i < 14) continue;
+    EXPECT_EQ(outcome.status, Status::kLost) << i;
+  }
+  for (int i = kUncovered; i < kUncovered + 5; ++i) {
+    const FrameOutcome outcome = run.feed(at_another_time(rig, 9, i));
+    EXPECT_EQ(outcome.status, Status::kTracked) << i;
+    EXPECT_EQ(outcome.submap, 0U) << "what it sees is what it saw last";
+    EXPECT_LT(shift_between(outcome.T_world_camera, rig.T_world_camera(9)), 0.02) << i;
+  }
+}
+
+// To where nothing of the last keyframe is seen: the other way.
+RoomRig carried_off() {
+  RoomRig rig;
+  rig.T_world_start.linear() =
+      Eigen::AngleAxisd(M_PI_2, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  return rig;
+}
+
+TEST(Odometry, CarriedOffItIsLostWithinHalfASecondAndGoesOnInASubmapOfItsOwn) {
+  const RoomRig rig;
+  const RoomRig elsewhere = carried_off();
+  Drive run(rig);
+  for (int i = 0; i < 10; ++i) run.feed(rig.frame(i));
+  std::optional<FrameOutcome> reference;
+  int lost = 0;
+  for (int i = 10; i < 30; ++i) {
+    const FrameOutcome outcome = run.feed(elsewhere.frame(i));
+    lost += outcome.status == Status::kLost ? 1 : 0;
+    if (i < 15) continue;
+    EXPECT_EQ(outcome.status, Status::kTracked) << i;
+    EXPECT_EQ(outcome.submap, 1U) << i;
+    if (!reference) reference = outcome;
+    const Eigen::Isometry3d moved =
+        elsewhere.T_world_camera(15).inverse() * elsewhere.T_world_camera(i);
+    EXPECT_LT(shift_between(reference->T_world_camera.inverse() * outcome.T_world_camera, moved),
+              0.02)
+        << i;
+  }
+  EXPECT_GE(lost, 1);
+  run.finish();
+  const auto begins = std::ranges::find_if(run.retired, &RetiredKeyframe::begins_submap);
+  ASSERT_NE(begins, run.retired.end());
+  ASSERT_NE(begins, run.retired.begin());
+  EXPECT_FALSE(std::prev(begins)->successor) << "nothing ties what was before to what came after";
+}
+
+TEST(Odometry, InTheDarkNoSubmapBegins) {
+  const RoomRig rig;
+  const RoomRig elsewhere = carried_off();
+  Drive run(rig);
+  for (int i = 0; i < 10; ++i) run.feed(rig.frame(i));
+  for (int i = 10; i < kUncovered; ++i) EXPECT_EQ(run.feed(covered(rig, 9, i)).submap, 0U);
+  for (int i = kUncovered; i < kUncovered + 3; ++i) run.feed(elsewhere.frame(i));
+  EXPECT_EQ(run.feed(elsewhere.frame(kUncovered + 3)).submap, 1U) << "of the first light";
 }
 
 // The start of a recording, with the lens cap on.

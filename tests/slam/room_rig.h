@@ -19,6 +19,7 @@ struct RoomRig {
   Eigen::Isometry3d T_camera_lidar = mount();
   double speed_m_s = 0.6;
   double turn_rad_s = 0.06;
+  Eigen::Isometry3d T_world_start = Eigen::Isometry3d::Identity();
 
   static Eigen::Isometry3d mount() {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
@@ -30,8 +31,8 @@ struct RoomRig {
 
   Eigen::Isometry3d T_world_camera(int i) const { return T_world_camera_at(kFrameSeconds * i); }
   Eigen::Isometry3d T_world_camera_at(double t) const {
-    return pose(0.02 * std::sin(t), turn_rad_s * t, 0.0, 0.1 * std::sin(0.5 * t), 0.0,
-                speed_m_s * t);
+    return T_world_start * pose(0.02 * std::sin(t), turn_rad_s * t, 0.0, 0.1 * std::sin(0.5 * t),
+                                0.0, speed_m_s * t);
   }
 
   SynchronizedFrame frame(int i) const {

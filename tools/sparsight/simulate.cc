@@ -3,9 +3,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tools/session/simulate_session.h"
@@ -41,28 +39,6 @@ bool read_size(const std::string& text, SimulationOptions& options) {
   return std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &rest) == 2;
 }
 
-// FROM:SECONDS; `least` is that of the second.
-std::optional<std::pair<double, double>> read_pair(const std::string& text, double least) {
-  double first = 0.0;
-  double second = 0.0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%lf:%lf%c", &first, &second, &rest) != 2) return std::nullopt;
-  if (!(first >= 0.0 && first < 1e5 && second >= least && second < 1e5)) return std::nullopt;
-  return std::pair{first, second};
-}
-
-bool read_covered(const std::string& text, SimulatedFaults& faults) {
-  const auto times = read_pair(text, 0.0);
-  if (times) faults.covered.push_back({seconds_given(times->first), seconds_given(times->second)});
-  return times.has_value();
-}
-
-bool read_carried(const std::string& text, SimulatedFaults& faults) {
-  const auto times = read_pair(text, -1e5);
-  if (times) faults.carried.push_back({seconds_given(times->first), seconds_given(times->second)});
-  return times.has_value();
-}
-
 int usage(const std::string& problem) {
   std::fprintf(stderr, "sparsight simulate: %s\n", problem.c_str());
   return 2;
@@ -85,13 +61,13 @@ int simulate(SimulateArguments arguments) {
     }
   }
   for (const std::string& covered : arguments.covered) {
-    if (!read_covered(covered, options.faults)) {
-      return usage("--cover is FROM:SECONDS, as in 10:5, not " + covered);
+    if (!read_cover(covered, options.faults)) {
+      return usage(cover_usage(covered));
     }
   }
   for (const std::string& carried : arguments.carried) {
-    if (!read_carried(carried, options.faults)) {
-      return usage("--carry is AT:AHEAD, as in 20:8 or 20:-8, not " + carried);
+    if (!read_carry(carried, options.faults)) {
+      return usage(carry_usage(carried));
     }
   }
   if (arguments.session.output.empty() && arguments.session.frames.empty()) {

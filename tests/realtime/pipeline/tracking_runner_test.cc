@@ -104,10 +104,10 @@ TEST(TrackingRunner, DoesNothingInSteadyStateThatARealTimeThreadMustNot) {
   int keyframes = 0;
   int searches = 0;
   for (int i = 0; i < 24; ++i) {
-    // A frame without an image, and one from elsewhere that every starting motion is tried for.
+    // A frame without an image, and two from elsewhere that every starting motion is tried for.
     SynchronizedFrame frame = rounds.rig().frame(i);
     if (i == 14) frame.grey = {};
-    if (i == 17) frame.grey = rounds.rig().frame(0).grey;
+    if (i == 17 || i == 21) frame.grey = rounds.rig().frame(0).grey;
     rounds.arrive(i, frame);
     RealtimeOffences found;
     {

@@ -50,5 +50,17 @@ TEST(LiveJson, IsOneLineThatAMachineReads) {
   EXPECT_EQ(json.at("recorder").at("state"), "ended: the disk is full");
 }
 
+TEST(LiveJson, HasThePoseInTheMapWhileItIsKnownWhereTheSubmapLies) {
+  LiveView view = a_second_of_a_run();
+  view.now.map.T_map_world = Eigen::Isometry3d(Eigen::Translation3d(10, 0, 0));
+  auto json = nlohmann::json::parse(live_json(view));
+  EXPECT_EQ(json.at("T_map_camera").at("position_m"), (std::vector<double>{11, 2, 3}));
+  EXPECT_EQ(json.at("T_map_odom").at("position_m"), (std::vector<double>{10, 0, 0}));
+  view.now.pose->submap = 1;  // of which the background has not heard yet
+  json = nlohmann::json::parse(live_json(view));
+  EXPECT_FALSE(json.contains("T_map_camera"));
+  EXPECT_EQ(json.at("submap"), 1);
+}
+
 }  // namespace
 }  // namespace sparsight

@@ -127,7 +127,7 @@ TEST_F(RecordedSession, JournalHasALinePerFrameAndSurvivesACrash) {
 
 TEST_F(RecordedSession, JournalLineHoldsTheFramesFigures) {
   EXPECT_EQ(frames_csv_line(figures_of(sample_record(210))),
-            "210,21.000000000,predicted,829,7.7264,0.9750,4,0,1.0110,0.0000\n");
+            "210,21.000000000,predicted,829,7.7264,0.9750,0.0000,4,0,1.0110,0.0000\n");
 }
 
 TEST_F(RecordedSession, LoopsLeaveBothPathsAndTheMapOfTheCorrectedOne) {
