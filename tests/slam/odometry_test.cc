@@ -216,8 +216,9 @@ TEST(Odometry, InTheDarkNoSubmapBegins) {
   Drive run(rig);
   for (int i = 0; i < 10; ++i) run.feed(rig.frame(i));
   for (int i = 10; i < kUncovered; ++i) EXPECT_EQ(run.feed(covered(rig, 9, i)).submap, 0U);
-  for (int i = kUncovered; i < kUncovered + 3; ++i) run.feed(elsewhere.frame(i));
-  EXPECT_EQ(run.feed(elsewhere.frame(kUncovered + 3)).submap, 1U) << "of the first light";
+  const auto light = [&](int i) { return at_another_time(elsewhere, i - kUncovered + 10, i); };
+  for (int i = kUncovered; i < kUncovered + 3; ++i) run.feed(light(i));
+  EXPECT_EQ(run.feed(light(kUncovered + 3)).submap, 1U) << "of the first light";
 }
 
 // The start of a recording, with the lens cap on.
