@@ -133,7 +133,7 @@ Result<MapWriter> MapWriter::claim(const fs::path& folder, bool continues) {
 
 fs::path MapWriter::unused_name() const {
   for (int number = 1;; ++number) {
-    const fs::path path = folder_ / fmt::format("{}{:04}{}", kPrefix, number, kEnding);
+    fs::path path = folder_ / fmt::format("{}{:04}{}", kPrefix, number, kEnding);
     std::error_code error;
     if (!fs::exists(path, error)) return path;
   }
