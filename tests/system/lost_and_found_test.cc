@@ -11,8 +11,10 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 void simulate(std::vector<std::string> faults, const fs::path& recording) {
-  std::vector<std::string> words{"simulate", "--scene", "hall", "--seed",  "5",        "--size",
-                                 "320x240",  "--rate",  "15",   "--quiet", "--output", recording};
+  // With images much smaller, few corners are left to know a place by.
+  std::vector<std::string> words{"simulate", "--scene", "corridor", "--seed",
+                                 "6",        "--size",  "400x300",  "--rate",
+                                 "15",       "--quiet", "--output", recording};
   words.insert(words.end(), faults.begin(), faults.end());
   const ProgramRun made = run_sparsight(words);
   ASSERT_EQ(made.exit_code, 0) << made.errors;
