@@ -202,6 +202,7 @@ bool LoopCloser::State::join(const SeenAgain& loop) {
   const std::vector<SeenAgain> agreeing = evidence.add(loop, graph);
   if (agreeing.empty()) return false;
   std::vector<PoseEdge> edges;
+  edges.reserve(agreeing.size());
   for (const SeenAgain& one : agreeing) edges.push_back(one.edge());
   if (!graph.join(edges)) return false;
   ++statistics.submaps_joined;

@@ -10,12 +10,13 @@
 namespace sparsight {
 namespace {
 
-#if defined(__has_feature)
+// Headers of others define __has_feature where the compiler does not.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SPARSIGHT_OTHER_MALLOC
+#elif defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define SPARSIGHT_OTHER_MALLOC
 #endif
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SPARSIGHT_OTHER_MALLOC
 #endif
 
 // What the C library has handed out.
