@@ -32,7 +32,10 @@ json read_independently(const std::filesystem::path& file) {
 }
 
 json written_and_read(const std::vector<MapPoint>& points) {
-  const auto file = std::filesystem::path(::testing::TempDir()) / "read_elsewhere.las";
+  // A name of this test's own: others run beside it.
+  const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  const auto file =
+      std::filesystem::path(::testing::TempDir()) / ("read_elsewhere_" + name + ".las");
   EXPECT_TRUE(write_las(file, points, 255.0F));
   return read_independently(file);
 }
