@@ -1,21 +1,31 @@
 #include "tools/sparsight/map_options.h"
 
-#include <map>
 #include <string>
 
 namespace sparsight {
+namespace {
+
+// To what CLI11 makes an enumerator of; returns what is wrong.
+std::string format_as_number(std::string& text) {
+  for (const CloudFormat format : kCloudFormats) {
+    if (CLI::detail::to_lower(text) != name_of(format)) continue;
+    text = std::to_string(static_cast<int>(format));
+    return {};
+  }
+  return "ply, pcd and las are known, not " + text;
+}
+
+}  // namespace
 
 void add_map_options(CLI::App& command, std::vector<CloudFormat>& formats,
                      SessionMapOptions& maps) {
-  std::map<std::string, CloudFormat> by_name;
-  for (const CloudFormat format : kCloudFormats) by_name[std::string(name_of(format))] = format;
   CLI::Option* format =
       command
           .add_option("--map-format", formats,
                       "files of the map, of ply, pcd and las (LAS 1.4), separated by commas")
           ->type_name("FORMATS")
           ->delimiter(',')
-          ->transform(CLI::CheckedTransformer(by_name, CLI::ignore_case).description(""))
+          ->transform(CLI::Validator(format_as_number, ""))
           ->default_str("ply");
   command
       .add_flag_callback(
