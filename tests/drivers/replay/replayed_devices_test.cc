@@ -2,28 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <deque>
+#include <vector>
+
+#include "tests/drivers/replay/listed_events.h"
 
 namespace sparsight {
 namespace {
 
 using namespace std::chrono_literals;
 
-class ListedEvents final : public RigEventSource {
- public:
-  explicit ListedEvents(std::deque<RigEvent> events) : events_(std::move(events)) {}
-  std::optional<RigEvent> next() override {
-    if (events_.empty()) return std::nullopt;
-    RigEvent event = events_.front();
-    events_.pop_front();
-    return event;
-  }
-
- private:
-  std::deque<RigEvent> events_;
-};
-
-OpenEvents listed(std::deque<RigEvent> events) {
+OpenEvents listed(std::vector<RigEvent> events) {
   return [events] { return std::make_unique<ListedEvents>(events); };
 }
 

@@ -8,25 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "tests/drivers/replay/listed_events.h"
 #include "tools/playback/playback_faults.h"
 
 namespace sparsight {
 namespace {
 
 using namespace std::chrono_literals;
-
-class ListedEvents final : public RigEventSource {
- public:
-  explicit ListedEvents(std::vector<RigEvent> events) : events_(std::move(events)) {}
-  std::optional<RigEvent> next() override {
-    if (at_ == events_.size()) return std::nullopt;
-    return events_[at_++];
-  }
-
- private:
-  std::vector<RigEvent> events_;
-  std::size_t at_ = 0;
-};
 
 constexpr HostTime kFirst{std::chrono::seconds(1000)};
 

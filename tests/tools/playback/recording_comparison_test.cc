@@ -8,25 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "tests/drivers/replay/listed_events.h"
+
 namespace sparsight {
 namespace {
 
 using namespace std::chrono_literals;
 
 constexpr auto kMovedBy = -500s;
-
-class ComparedEvents final : public RigEventSource {
- public:
-  explicit ComparedEvents(std::vector<RigEvent> events) : events_(std::move(events)) {}
-  std::optional<RigEvent> next() override {
-    if (at_ == events_.size()) return std::nullopt;
-    return events_[at_++];
-  }
-
- private:
-  std::vector<RigEvent> events_;
-  std::size_t at_ = 0;
-};
 
 CameraFrame frame_number(std::uint32_t number, HostTime at) {
   return {.sequence = number,
@@ -64,8 +53,8 @@ std::vector<RigEvent> events(std::chrono::nanoseconds moved_by, const Change& ch
 }
 
 RecordingComparison compared(const Change& change) {
-  ComparedEvents in(events(0s, {}));
-  ComparedEvents out(events(kMovedBy, change));
+  ListedEvents in(events(0s, {}));
+  ListedEvents out(events(kMovedBy, change));
   return compare_events(in, out, kMovedBy);
 }
 
