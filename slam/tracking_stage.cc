@@ -14,6 +14,7 @@ constexpr double kPatienceS = 0.25;
 // takes it out again. One end of a corridor finds 60 % of the other.
 constexpr double kSuddenly = 0.7;
 constexpr double kAsBefore = 0.8;
+constexpr double kChangesS = 0.15;        // how long a keyframe is good in passing traffic
 constexpr double kVelocityMemoryS = 1.0;  // after so long without tracking it may be any other
 
 // Of an image relative to a later keyframe, both known relative to an earlier one.
@@ -27,7 +28,7 @@ Brightness relative_to(const Brightness& keyframe, const Brightness& image) {
 TrackingStage::TrackingStage(const RigCalibration& calibration, const OdometryConfig& config)
     : calibration_(calibration),
       config_(config),
-      tracker_(CameraModel(calibration.camera), config.tracker, config.photometry) {}
+      tracker_(calibration, config.tracker, config.photometry) {}
 
 void TrackingStage::prepare(TrackedFrame& out) {
   GreyImage image{.width = calibration_.camera.width, .height = calibration_.camera.height};
@@ -82,6 +83,7 @@ void TrackingStage::begin_submap(const TrackingReference& reference) {
   trusted_share_ = 0.0;
   if (to_seconds(reference.keyframe.exposure - last_trusted_) < kVelocityMemoryS) return;
   motion_.restart(reference.keyframe.exposure);
+  velocity_confirmed_ = false;
   brightness_ = brightness_at_hand_over_;
   start_error_px_ = std::numeric_limits<double>::infinity();
   found_share_ = 0.0;
@@ -102,9 +104,13 @@ FrameOutcome TrackingStage::follow(const SynchronizedFrame& frame,
       .error_px = start_error_px_,
       .found_share = found_share_,
       .seconds_since_previous =
-          in_doubt_ < kPatientFrames ? motion_.seconds_since_last(frame.exposure) : std::nullopt,
+          velocity_confirmed_ ? motion_.seconds_since_last(frame.exposure) : std::nullopt,
+      .in_doubt = in_doubt_ >= kPatientFrames,
       .finest_level = finest_level};
-  if (!pyramid.empty()) result.tracking = tracker_.track(keyframe, pyramid, start);
+  if (!pyramid.empty()) {
+    const Vector6d twist = motion_.twist().value_or(Vector6d::Zero());
+    result.tracking = tracker_.track(keyframe, pyramid, frame.sweep, twist, start);
+  }
   judge(frame, result.tracking);
   result.in_question = in_question_;
   if (result.tracking.ok() && !lost_) {
@@ -123,7 +129,7 @@ FrameOutcome TrackingStage::follow(const SynchronizedFrame& frame,
 
 void TrackingStage::judge(const SynchronizedFrame& frame, const TrackingResult& result) {
   const double as_before = result.found_share / std::max(trusted_share_, kWellFound);
-  if (!result.ok() || as_before < kSuddenly) in_question_ = true;
+  if (!result.vouched && (!result.ok() || as_before < kSuddenly)) in_question_ = true;
   if (result.well_found() && as_before >= kAsBefore) in_question_ = false;
   if (!in_question_) {
     lost_ = false;
@@ -148,17 +154,25 @@ bool TrackingStage::wants_keyframe(const SynchronizedFrame& frame,
                                    const FrameOutcome& outcome) const {
   using Status = FrameOutcome::Status;
   if (outcome.in_question) return outcome.status == Status::kLost;
-  const bool old =
-      to_seconds(frame.exposure - reference.keyframe.exposure) >= config_.keyframes.max_age_s;
+  const double age_s = to_seconds(frame.exposure - reference.keyframe.exposure);
+  const bool old = age_s >= config_.keyframes.max_age_s;
   const bool little_in_common =
       outcome.tracking.visible_ratio < config_.keyframes.min_visible_ratio;
   const bool second_of_all = reference.keyframes < 2;
-  return old || little_in_common || second_of_all;
+  // What the keyframe shows has gone, or something stands before it.
+  const bool changed =
+      outcome.tracking.vouched && outcome.tracking.found_share < kWellFound && age_s >= kChangesS;
+  return old || little_in_common || second_of_all || changed;
 }
 
 void TrackingStage::learn(const SynchronizedFrame& frame, const TrackingReference& reference,
                           const TrackingResult& result, const TrackingStart& start) {
   const bool predicted = motion_.twist().has_value();
+  if (predicted && !velocity_confirmed_) {
+    TrackingStart confirmed = start;
+    confirmed.seconds_since_previous = motion_.seconds_since_last(frame.exposure);
+    velocity_confirmed_ = tracker_.reachable(result.T_keyframe_camera, confirmed);
+  }
   const Vector6d error = log_se3(start.T_keyframe_predicted.inverse() * result.T_keyframe_camera);
   const double error_px =
       reference.camera.intrinsics().fx *

@@ -8,6 +8,7 @@
 #include "hal/frame_source.h"
 #include "slam/odometry_config.h"
 #include "slam/tracked_frame.h"
+#include "slam/tracking/arbitrated_tracker.h"
 #include "slam/tracking_reference.h"
 
 namespace sparsight {
@@ -42,7 +43,7 @@ class TrackingStage {
 
   RigCalibration calibration_;
   OdometryConfig config_;
-  Tracker tracker_;
+  ArbitratedTracker tracker_;
   std::optional<std::uint64_t> reference_version_;
   std::optional<std::uint64_t> keyframe_;     // tracked against
   std::optional<std::uint64_t> handed_over_;  // became a keyframe; not considered by the window yet
@@ -60,7 +61,10 @@ class TrackingStage {
   HostTime last_trusted_;       // its exposure, or the keyframe's if later
   bool lost_ = false;           // in question for too long
   std::uint32_t submap_ = 0;
-  int in_doubt_ = 0;  // frames in a row: their velocity is no ground to refuse another
+  int in_doubt_ = 0;  // frames in a row that were not well found
+  // A frame was where the velocity had led to expect it; before, a wrong first step would have
+  // every right one refused.
+  bool velocity_confirmed_ = false;
 };
 
 }  // namespace sparsight

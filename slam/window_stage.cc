@@ -123,6 +123,9 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
   for (int level = 0; level < tracked.pyramid.levels(); ++level) {
     keyframe->patches.push_back(patches_of(*keyframe, level));
   }
+  if (config_.tracker.sweep_arbiter) {
+    keyframe->surface = surface_of(frame.sweep, calibration_.T_camera_lidar, motion_around);
+  }
   keyframe->cloud_camera = colored(returns, camera_, frame);
   return keyframe;
 }

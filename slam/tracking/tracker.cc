@@ -67,6 +67,12 @@ constexpr double kDoubtful = 0.6;
 // No other minimum finds so much: on fast roads the wrong ones find up to 0.7.
 constexpr double kBeyondDoubt = 0.8;
 
+// Refinement goes down by a level at least.
+TrackingStart within(TrackingStart start, int coarsest) {
+  start.finest_level = std::clamp(start.finest_level, 0, std::max(0, coarsest - 1));
+  return start;
+}
+
 PhotometryConfig per_pixel(PhotometryConfig photometry) {
   photometry.patch_weights = false;
   return photometry;
@@ -99,7 +105,7 @@ void Tracker::rehearse_search(const ImagePyramid& image) {
   const int levels = std::min(config_.pyramid_levels, image.levels());
   TrackingTarget nothing;
   nothing.patches.resize(static_cast<std::size_t>(levels));
-  if (levels > 0) search(nothing, image, {}, levels - 1, {});
+  if (levels > 0) from_everywhere(nothing, image, {}, levels - 1, {});
 }
 
 Alignment Tracker::refine(const TrackingTarget& keyframe, const ImagePyramid& image,
@@ -125,7 +131,7 @@ Tracker::Entry Tracker::entry(const TrackingTarget& keyframe, const ImagePyramid
     const auto index = static_cast<std::size_t>(level);
     double best_share = kFoundAtStart;
     for (const Eigen::Isometry3d& T : {start.T_keyframe_predicted, start.T_keyframe_previous}) {
-      if (!plausible(T, start)) continue;
+      if (!reachable(T, start)) continue;
       const Alignment at = assess(keyframe.patches[index], image.level(level), cameras_[index],
                                   start_at(T, start.brightness), photometry_, workspace_);
       const PatchAgreement agreement =
@@ -161,7 +167,7 @@ Alignment Tracker::past_other_minima(const TrackingTarget& keyframe, const Image
       start.T_keyframe_predicted.translation() - start.T_keyframe_previous.translation();
   const std::optional<Alignment> other = best_speed(
       patches, image.level(level), cameras_[index], keyframe.mean_inverse_depth, found, way,
-      [&](const Eigen::Isometry3d& T) { return plausible(T, start); }, photometry_, workspace_);
+      [&](const Eigen::Isometry3d& T) { return reachable(T, start); }, photometry_, workspace_);
   if (other) {
     Alignment refined = refine(keyframe, image, *other, level, level, photometry_);
     if (refined.cost < found.cost) return refined;
@@ -170,7 +176,7 @@ Alignment Tracker::past_other_minima(const TrackingTarget& keyframe, const Image
   return found;
 }
 
-bool Tracker::plausible(const Eigen::Isometry3d& T_keyframe_camera,
+bool Tracker::reachable(const Eigen::Isometry3d& T_keyframe_camera,
                         const TrackingStart& start) const {
   if (!T_keyframe_camera.matrix().allFinite()) return false;
   if (!start.seconds_since_previous) return true;
@@ -198,7 +204,7 @@ TrackingResult Tracker::verdict(const TrackingTarget& keyframe, const Alignment&
   if (agreement.visible_patches < config_.min_points) {
     result.status = Status::kTooFewPoints;
   } else if (!(agreement.found_share >= config_.min_found_share) ||
-             !plausible(result.T_keyframe_camera, start)) {
+             !reachable(result.T_keyframe_camera, start)) {
     result.status = Status::kDiverged;
   } else {
     result.status = at.converged ? Status::kConverged : Status::kIterationLimit;
@@ -226,9 +232,9 @@ const std::vector<RankedStart>& Tracker::ranked_starts(const TrackingTarget& key
   return search_.ranked;
 }
 
-TrackingResult Tracker::search(const TrackingTarget& keyframe, const ImagePyramid& image,
-                               const TrackingStart& start, int coarsest,
-                               const TrackingResult& direct) {
+TrackingResult Tracker::from_everywhere(const TrackingTarget& keyframe, const ImagePyramid& image,
+                                        const TrackingStart& start, int coarsest,
+                                        const TrackingResult& direct) {
   const std::vector<RankedStart>& ranked = ranked_starts(keyframe, image, start, coarsest);
   // Many starts meet in one place, most often where the direct attempt has ended.
   VisitedPlaces places(cameras_[static_cast<std::size_t>(coarsest)], keyframe.mean_inverse_depth);
@@ -250,30 +256,59 @@ TrackingResult Tracker::search(const TrackingTarget& keyframe, const ImagePyrami
   return best;
 }
 
-TrackingResult Tracker::track(const TrackingTarget& keyframe, const ImagePyramid& image,
-                              const TrackingStart& wanted) {
-  const int levels =
-      std::min({config_.pyramid_levels, image.levels(), static_cast<int>(keyframe.patches.size())});
-  TrackingStart start = wanted;
-  start.finest_level = std::clamp(wanted.finest_level, 0, std::max(0, levels - 2));
-  const bool known = std::isfinite(start.error_px);
-  const Entry from = entry(keyframe, image, start, levels - 1);
+int Tracker::levels(const TrackingTarget& keyframe, const ImagePyramid& image) const {
+  return std::min(
+      {config_.pyramid_levels, image.levels(), static_cast<int>(keyframe.patches.size())});
+}
+
+TrackingResult Tracker::direct(const TrackingTarget& keyframe, const ImagePyramid& image,
+                               const TrackingStart& wanted) {
+  const int coarsest = levels(keyframe, image) - 1;
+  const TrackingStart start = within(wanted, coarsest);
+  const Entry from = entry(keyframe, image, start, coarsest);
   Alignment at = from.found
                      ? refine(keyframe, image, from.at, from.level, start.finest_level, photometry_)
                      : descend(keyframe, image, from.at, from.level, start.finest_level);
   if (config_.scan_speed) at = past_other_minima(keyframe, image, at, start);
   TrackingResult result = verdict(keyframe, at, start, from.level);
   result.attempts = 1;
-  // Much less found than in the frame before: perhaps the wrong minimum.
-  const bool doubtful = result.found_share < std::max(kDoubtful * start.found_share, kWellFound);
-  const bool settled = known ? !doubtful : result.found_share >= kBeyondDoubt;
-  if (!config_.try_other_starts || (result.ok() && settled)) return result;
-
-  const TrackingResult searched = search(keyframe, image, start, levels - 1, result);
-  const int attempts = result.attempts + searched.attempts;
-  if (searched.ok() >= result.ok() && searched.found_share > result.found_share) result = searched;
-  result.attempts = attempts;
   return result;
+}
+
+// Much less found than in the frame before: perhaps the wrong minimum.
+bool Tracker::settled(const TrackingResult& direct, const TrackingStart& start) const {
+  if (!direct.ok()) return false;
+  if (!std::isfinite(start.error_px)) return direct.found_share >= kBeyondDoubt;
+  return direct.found_share >= std::max(kDoubtful * start.found_share, kWellFound);
+}
+
+TrackingResult Tracker::search(const TrackingTarget& keyframe, const ImagePyramid& image,
+                               const TrackingStart& wanted, const TrackingResult& direct) {
+  const int coarsest = levels(keyframe, image) - 1;
+  const TrackingResult searched =
+      from_everywhere(keyframe, image, within(wanted, coarsest), coarsest, direct);
+  const bool better = searched.ok() >= direct.ok() && searched.found_share > direct.found_share;
+  TrackingResult result = better ? searched : direct;
+  result.attempts = direct.attempts + searched.attempts;
+  return result;
+}
+
+TrackingResult Tracker::track(const TrackingTarget& keyframe, const ImagePyramid& image,
+                              const TrackingStart& start) {
+  const TrackingResult result = direct(keyframe, image, start);
+  if (!config_.try_other_starts || settled(result, start)) return result;
+  return search(keyframe, image, start, result);
+}
+
+TrackingResult Tracker::look(const TrackingTarget& keyframe, const ImagePyramid& image,
+                             const Eigen::Isometry3d& T_keyframe_camera,
+                             const TrackingStart& wanted) {
+  const TrackingStart start = within(wanted, levels(keyframe, image) - 1);
+  const auto level = static_cast<std::size_t>(start.finest_level);
+  const Alignment at =
+      assess(keyframe.patches[level], image.level(start.finest_level), cameras_[level],
+             start_at(T_keyframe_camera, start.brightness), photometry_, workspace_);
+  return verdict(keyframe, at, start, start.finest_level);
 }
 
 }  // namespace sparsight

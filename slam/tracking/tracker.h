@@ -23,6 +23,7 @@ struct TrackerConfig {
   bool automatic_top_level = false;
   bool scan_speed = false;  // looks for a lower cost at other speeds than that of the minimum
   bool try_other_starts = true;
+  bool sweep_arbiter = false;    // where the image leaves a doubt, the LiDAR is asked
   int min_points = 30;           // visible patches, fewer cannot be tracked
   double min_found_share = 0.3;  // of the patches, below: diverged
   // No rig that people or vehicles carry changes its speed faster; a pose that says so is wrong.
@@ -43,10 +44,11 @@ struct TrackingResult {
   double residual_sigma_grey = 0.0;
   double found_share = 0.0;  // of the patches, found in the image
   int top_level = 0;
-  int attempts = 0;  // starting motions tried
+  int attempts = 0;      // starting motions tried
+  bool vouched = false;  // for by the LiDAR: right, however little is found
 
   bool ok() const { return status == Status::kConverged || status == Status::kIterationLimit; }
-  bool well_found() const { return ok() && found_share >= kWellFound; }
+  bool well_found() const { return ok() && (vouched || found_share >= kWellFound); }
 };
 
 // Where the frame is expected.
@@ -58,6 +60,9 @@ struct TrackingStart {
   double found_share = 0.0;                                   // of the last frame
   // Time since the last tracked frame; nothing if its velocity is not known.
   std::optional<double> seconds_since_previous;
+  // Frames were in doubt for so long that their velocity is no ground to refuse what the LiDAR
+  // says.
+  bool in_doubt = false;
   // Where refinement ends: 0, or in want of time a coarser level. The pose is then known to that
   // level's pixels, and what is found is judged there.
   int finest_level = 0;
@@ -72,8 +77,22 @@ class Tracker {
 
   void set_camera(const CameraModel& camera);
 
+  // From the start, and if what that finds leaves a doubt, from everywhere around.
   TrackingResult track(const TrackingTarget& keyframe, const ImagePyramid& image,
                        const TrackingStart& start);
+  // The same in steps. From the start alone:
+  TrackingResult direct(const TrackingTarget& keyframe, const ImagePyramid& image,
+                        const TrackingStart& start);
+  // Whether that leaves no doubt.
+  bool settled(const TrackingResult& direct, const TrackingStart& start) const;
+  // From everywhere around; the better of that and what was found directly.
+  TrackingResult search(const TrackingTarget& keyframe, const ImagePyramid& image,
+                        const TrackingStart& start, const TrackingResult& direct);
+  // Whether a rig can be there by now.
+  bool reachable(const Eigen::Isometry3d& T_keyframe_camera, const TrackingStart& start) const;
+  // What is seen from a pose as it is, with the start's brightness.
+  TrackingResult look(const TrackingTarget& keyframe, const ImagePyramid& image,
+                      const Eigen::Isometry3d& T_keyframe_camera, const TrackingStart& start);
   // Looks once for a keyframe of nothing. The first search may come late, and what only a search
   // touches, memory and code, is to be there then without a page fault.
   void rehearse_search(const ImagePyramid& image);
@@ -99,13 +118,14 @@ class Tracker {
                     const Alignment& start, int coarsest, int finest);
   TrackingResult verdict(const TrackingTarget& keyframe, const Alignment& at,
                          const TrackingStart& start, int top_level) const;
-  bool plausible(const Eigen::Isometry3d& T_keyframe_camera, const TrackingStart& start) const;
   const std::vector<RankedStart>& ranked_starts(const TrackingTarget& keyframe,
                                                 const ImagePyramid& image,
                                                 const TrackingStart& start, int coarsest);
   // From all starting motions; what `direct` has found already is not looked for again.
-  TrackingResult search(const TrackingTarget& keyframe, const ImagePyramid& image,
-                        const TrackingStart& start, int coarsest, const TrackingResult& direct);
+  TrackingResult from_everywhere(const TrackingTarget& keyframe, const ImagePyramid& image,
+                                 const TrackingStart& start, int coarsest,
+                                 const TrackingResult& direct);
+  int levels(const TrackingTarget& keyframe, const ImagePyramid& image) const;
 
   TrackerConfig config_;
   PhotometryConfig photometry_;

@@ -41,6 +41,7 @@ void visit_fields(Visitor& profile, TrackerConfig& tracker) {
   profile.table("alignment", tracker.alignment);
   profile.field("automatic_top_level", tracker.automatic_top_level);
   profile.field("scan_speed", tracker.scan_speed);
+  profile.field("sweep_arbiter", tracker.sweep_arbiter);
   profile.field("try_other_starts", tracker.try_other_starts);
   profile.field("min_points", tracker.min_points, {6, 100000});
   profile.field("min_found_share", tracker.min_found_share, {-1.0, 1.0});

@@ -1,0 +1,149 @@
+#include "slam/lidar/sweep_surface.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "slam/lidar/sweep_rows.h"
+#include "slam/points/sweep_motion.h"
+
+namespace sparsight {
+namespace {
+
+constexpr int kColumns = 180;  // of 2 degrees, as the bins of Sec. IV-B4
+constexpr int kElevations = 360;
+constexpr std::size_t kEnoughReturns = 40000;
+constexpr double kFewestReturns = 6.0;
+constexpr double kThickest = 0.2;          // metres, rms: hedges are planes, trees are not
+constexpr double kWidthOfThickness = 3.0;  // a plane is wider than it is thick, both ways
+constexpr double kLeastThickness = 0.01;
+
+std::size_t column_of(const Eigen::Vector3f& p) {
+  const float turn = std::atan2(p.y(), p.x()) * static_cast<float>(0.5 / M_PI) + 0.5F;
+  return std::min<std::size_t>(kColumns - 1, static_cast<std::size_t>(turn * kColumns));
+}
+
+struct Moments {
+  double n = 0.0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+
+  void add(const Eigen::Vector3d& p) {
+    n += 1.0;
+    sum += p;
+    squares.noalias() += p * p.transpose();
+  }
+  void add(const Moments& other) {
+    n += other.n;
+    sum += other.sum;
+    squares += other.squares;
+  }
+};
+
+// The plane of returns; no normal if they do not lie on one.
+SweepSurface::Plane plane_through(const Moments& returns) {
+  if (returns.n < kFewestReturns) return {};
+  const Eigen::Vector3d mean = returns.sum / returns.n;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal;
+  principal.computeDirect(returns.squares / returns.n - mean * mean.transpose());
+  const Eigen::Vector3d extent = principal.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  if (extent.x() > kThickest) return {};
+  if (extent.y() < kWidthOfThickness * std::max(extent.x(), kLeastThickness)) return {};
+  return {.centre = mean.cast<float>(),
+          .normal = principal.eigenvectors().col(0).cast<float>(),
+          .thickness_m = static_cast<float>(extent.x()),
+          .reach_m = static_cast<float>(2.0 * extent.z())};
+}
+
+// Rows and columns around a bin: all, or at an edge of what is there one side of it, or a corner.
+struct Block {
+  int first_row, last_row, first_column, last_column;
+};
+constexpr std::array<Block, 7> kBlocks{{{-1, 1, -1, 1},
+                                        {-1, 0, -1, 1},
+                                        {0, 1, -1, 1},
+                                        {-1, 0, -1, 0},
+                                        {-1, 0, 0, 1},
+                                        {0, 1, -1, 0},
+                                        {0, 1, 0, 1}}};
+
+class Bins {
+ public:
+  Bins(std::span<const SweepPoint> points, const SweepRows& rows)
+      : rows_(rows.count()), moments_(static_cast<std::size_t>(rows_) * kColumns) {
+    for (const SweepPoint& point : points) {
+      const auto row = static_cast<std::size_t>(rows.of_ring(point.ring));
+      moments_[row * kColumns + column_of(point.p_lidar)].add(point.p_lidar.cast<double>());
+    }
+  }
+
+  SweepSurface::Plane plane(int row, int column) const {
+    if (at(row, column).n == 0.0) return {};
+    for (const Block& block : kBlocks) {
+      Moments returns;
+      for (int r = std::max(0, row + block.first_row);
+           r <= std::min(rows_ - 1, row + block.last_row); ++r) {
+        for (int c = block.first_column; c <= block.last_column; ++c) {
+          returns.add(at(r, (column + c + kColumns) % kColumns));
+        }
+      }
+      const SweepSurface::Plane plane = plane_through(returns);
+      if (!plane.normal.isZero()) return plane;
+    }
+    return {};
+  }
+
+ private:
+  const Moments& at(int row, int column) const {
+    return moments_[static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column)];
+  }
+
+  int rows_;
+  std::vector<Moments> moments_;
+};
+
+}  // namespace
+
+SweepSurface::SweepSurface(std::span<const SweepPoint> points) {
+  if (points.empty()) return;
+  const SweepRows rows(points);
+  const Bins bins(points, rows);
+  planes_.reserve(static_cast<std::size_t>(rows.count()) * kColumns);
+  for (int row = 0; row < rows.count(); ++row) {
+    for (int column = 0; column < kColumns; ++column) planes_.push_back(bins.plane(row, column));
+  }
+  for (int i = 0; i < kElevations; ++i) {
+    row_at_.push_back(static_cast<std::int16_t>(rows.at((i + 0.5) * M_PI / kElevations - M_PI_2)));
+  }
+}
+
+const SweepSurface::Plane* SweepSurface::at(const Eigen::Vector3f& p_lidar) const {
+  if (planes_.empty()) return nullptr;
+  const auto up = static_cast<float>(kElevations / M_PI) * elevation_rad(p_lidar);
+  const int elevation = std::clamp(static_cast<int>(up) + kElevations / 2, 0, kElevations - 1);
+  const int row = row_at_[static_cast<std::size_t>(elevation)];
+  if (row < 0) return nullptr;
+  const Plane& plane = planes_[static_cast<std::size_t>(row) * kColumns + column_of(p_lidar)];
+  return plane.normal.isZero() ? nullptr : &plane;
+}
+
+SweepSurface surface_of(const Sweep& sweep, const Eigen::Isometry3d& T_camera_lidar,
+                        const MotionAround& motion) {
+  const Eigen::Isometry3d T_lidar_camera = T_camera_lidar.inverse();
+  const SweepMotion at_exposure(firing_span(sweep), [&](double seconds) -> Eigen::Isometry3d {
+    return T_lidar_camera * motion(seconds) * T_camera_lidar;
+  });
+  const std::size_t stride = 1 + sweep.returns.size() / kEnoughReturns;
+  std::vector<SweepPoint> points;
+  points.reserve(sweep.returns.size() / stride + 1);
+  for (std::size_t i = 0; i < sweep.returns.size(); i += stride) {
+    const LidarReturn& r = sweep.returns[i];
+    const Eigen::Vector3f p = at_exposure.moved(r);
+    if (p.allFinite()) points.push_back({.p_lidar = p, .ring = r.ring});
+  }
+  return SweepSurface(points);
+}
+
+}  // namespace sparsight
