@@ -116,9 +116,9 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
   if (config_.photometry.weigh_down_strangers && window_.size() > 0 &&
       tracked.outcome.status == FrameOutcome::Status::kTracked &&
       window_.latest().sequence == tracked.outcome.keyframe_sequence) {
-    weigh_down_strangers(keyframe->points, patches_of(*keyframe, 0),
-                         window_.latest().pyramid.level(0), camera_,
-                         tracked.outcome.tracking.T_keyframe_camera);
+    weigh_down_strangers(
+        keyframe->points, patches_of(*keyframe, 0), window_.latest().pyramid.level(0), camera_,
+        tracked.outcome.tracking.T_keyframe_camera, tracked.outcome.tracking.vouched);
   }
   for (int level = 0; level < tracked.pyramid.levels(); ++level) {
     keyframe->patches.push_back(patches_of(*keyframe, level));

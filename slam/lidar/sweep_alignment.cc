@@ -38,6 +38,7 @@ struct Equations {
   double area = 0.0;
   double on_surface = 0.0;
   double squares = 0.0;
+  Eigen::Matrix3d facing = Eigen::Matrix3d::Zero();
   std::size_t returns = 0;
 };
 
@@ -69,6 +70,10 @@ Equations linearize(const SweepSurface& surface, std::span<const Eigen::Vector3f
     sum.H.noalias() += weight / noise2 * J * J.transpose();
     sum.b += weight / noise2 * distance * J;
     sum.squares += weight * square;
+    if (square < kOnSurface * kOnSurface) {
+      const Eigen::Vector3d n = plane->normal.cast<double>();
+      sum.facing.noalias() += n * n.transpose();
+    }
   }
   return sum;
 }
@@ -77,6 +82,7 @@ SweepFit fit(const Equations& at, const Eigen::Isometry3d& T_keyframe_lidar, dou
   SweepFit result{.T_keyframe_lidar = T_keyframe_lidar, .returns = at.returns};
   if (at.returns < kFewest || !(at.area > 0.0)) return result;
   result.share = at.on_surface / at.area;
+  result.facing = at.facing;
   result.information = at.H * (static_cast<double>(at.returns) / (at.area * scale * scale));
   return result;
 }

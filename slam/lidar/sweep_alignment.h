@@ -14,7 +14,9 @@ struct SweepFit {
   Eigen::Isometry3d T_keyframe_lidar = Eigen::Isometry3d::Identity();
   // Of the returns that have a plane near, by the area they stand for, those that lie on it.
   double share = 0.0;
-  std::size_t returns = 0;                  // that have one
+  std::size_t returns = 0;  // that have one
+  // Sum of n n^T over the returns on it, n their plane's normal: how many speak for a direction.
+  Eigen::Matrix3d facing = Eigen::Matrix3d::Zero();
   Matrix6d information = Matrix6d::Zero();  // left increment of T_keyframe_lidar
 };
 

@@ -12,21 +12,25 @@ namespace {
 // By the information, which takes every return for itself; the error is some five times as large.
 constexpr double kSureM = 0.01;
 constexpr double kSureRad = 0.1 * M_PI / 180.0;
+// Returns that speak for each direction; a few planes at edges face where no wall does.
+constexpr double kFewestFacing = 15.0;
 
-bool sure(const Matrix6d& information) {
-  const auto weakest = [](const Eigen::Matrix3d& block) {
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block, Eigen::EigenvaluesOnly)
-        .eigenvalues()(0);
-  };
-  // Of each three, with the other three eliminated.
-  const Eigen::Matrix3d A = information.topLeftCorner<3, 3>();
-  const Eigen::Matrix3d B = information.topRightCorner<3, 3>();
-  const Eigen::Matrix3d C = information.bottomRightCorner<3, 3>();
+double weakest(const Eigen::Matrix3d& block) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block, Eigen::EigenvaluesOnly)
+      .eigenvalues()(0);
+}
+
+bool is_sure(const SweepFit& fit) {
+  if (weakest(fit.facing) < kFewestFacing) return false;
+  // Of rotation and of translation, each with the other eliminated.
+  const Eigen::Matrix3d A = fit.information.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d B = fit.information.topRightCorner<3, 3>();
+  const Eigen::Matrix3d C = fit.information.bottomRightCorner<3, 3>();
   if (!(weakest(A) > 0.0) || !(weakest(C) > 0.0)) return false;
   const Eigen::Matrix3d rotation = A - B * C.ldlt().solve(B.transpose());
   const Eigen::Matrix3d translation = C - B.transpose() * A.ldlt().solve(B);
-  return weakest(translation) * kSureM * kSureM > 1.0 &&
-         weakest(rotation) * kSureRad * kSureRad > 1.0;
+  return weakest(rotation) * kSureRad * kSureRad > 1.0 &&
+         weakest(translation) * kSureM * kSureM > 1.0;
 }
 
 }  // namespace
@@ -51,7 +55,8 @@ SweepArbiter::Opinion SweepArbiter::opinion(const Eigen::Isometry3d& start) cons
   const SweepFit fit = align_sweep(*surface_, sample_, in_lidar(start));
   return {.T_keyframe_camera = T_camera_lidar_ * fit.T_keyframe_lidar * T_lidar_camera_,
           .share = fit.share,
-          .sure = sure(fit.information)};
+
+          .sure = is_sure(fit)};
 }
 
 }  // namespace sparsight

@@ -18,7 +18,7 @@ constexpr std::size_t kEnoughReturns = 40000;
 constexpr double kFewestReturns = 6.0;
 constexpr double kThickest = 0.2;          // metres, rms: hedges are planes, trees are not
 constexpr double kWidthOfThickness = 3.0;  // a plane is wider than it is thick, both ways
-constexpr double kLeastThickness = 0.01;
+constexpr double kLeastThickness = 0.02;
 
 std::size_t column_of(const Eigen::Vector3f& p) {
   const float turn = std::atan2(p.y(), p.x()) * static_cast<float>(0.5 / M_PI) + 0.5F;

@@ -10,9 +10,6 @@
 namespace sparsight {
 namespace {
 
-constexpr double kFoundCorrelation = 0.7;
-constexpr double kMissingCorrelation = 0.2;
-
 struct Moments {
   double n = 0.0, a = 0.0, b = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
 
@@ -71,12 +68,12 @@ PatchAgreement patch_agreement(const PatchSet& patches, const Linearization& lin
 
 std::vector<std::size_t> missing_patches(const PatchSet& patches,
                                          const Linearization& linearization,
-                                         const Brightness& brightness) {
+                                         const Brightness& brightness, double below) {
   std::vector<std::size_t> missing;
   for (std::size_t patch = 0; patch < patches.patches; ++patch) {
     if (!is_visible(linearization, patch)) continue;
     const std::optional<double> match = correlation(patches, linearization, brightness, patch);
-    if (match && *match < kMissingCorrelation) missing.push_back(patch);
+    if (match && *match < below) missing.push_back(patch);
   }
   return missing;
 }

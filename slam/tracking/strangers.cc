@@ -9,16 +9,18 @@ namespace sparsight {
 namespace {
 
 constexpr float kStrangersWeight = 0.1F;
+constexpr double kMissing = 0.2;  // correlation
 
 }  // namespace
 
 void weigh_down_strangers(std::vector<SelectedPoint>& points, const PatchSet& patches,
                           const GreyImage& earlier, const CameraModel& camera,
-                          const Eigen::Isometry3d& T_earlier_keyframe) {
+                          const Eigen::Isometry3d& T_earlier_keyframe, bool in_traffic) {
   Linearization linearization;
   const Brightness same;  // agreement does not depend on it
   linearize(patches, earlier, camera, T_earlier_keyframe, same, linearization);
-  for (const std::size_t stranger : missing_patches(patches, linearization, same)) {
+  for (const std::size_t stranger :
+       missing_patches(patches, linearization, same, in_traffic ? kFoundCorrelation : kMissing)) {
     points[stranger].weight = kStrangersWeight;
   }
 }

@@ -15,9 +15,10 @@ namespace sparsight {
 // weight: no moving majority of an image carries the pose away with it, and should the pose have
 // been wrong, so that the scene looked strange, the scene still counts.
 //
+// in_traffic: it took the LiDAR to tell the pose; then what is not surely found is a stranger, too.
 // `patches` of the points, and `earlier`, at the finest level; T_earlier_keyframe as tracked.
 void weigh_down_strangers(std::vector<SelectedPoint>& points, const PatchSet& patches,
                           const GreyImage& earlier, const CameraModel& camera,
-                          const Eigen::Isometry3d& T_earlier_keyframe);
+                          const Eigen::Isometry3d& T_earlier_keyframe, bool in_traffic);
 
 }  // namespace sparsight

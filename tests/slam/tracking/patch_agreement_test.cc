@@ -54,7 +54,7 @@ TEST_F(PatchAgreementTest, NamesThePatchesThatAreNotThereAtAll) {
   const auto missing = [&](const GreyImage& image) {
     Linearization l;
     linearize(patches_, image, room_.camera(), T_origin_, {}, l);
-    return missing_patches(patches_, l, {});
+    return missing_patches(patches_, l, {}, 0.2);
   };
   EXPECT_TRUE(missing(room_.image(T_origin_)).empty());
   EXPECT_TRUE(missing(room_.image(T_origin_, {0.6, 20.0})).empty());

@@ -25,10 +25,11 @@ class StrangersTest : public testing::Test {
     return image;
   }
   std::vector<SelectedPoint> weighed(const GreyImage& earlier,
-                                     const Eigen::Isometry3d& T_earlier_keyframe) const {
+                                     const Eigen::Isometry3d& T_earlier_keyframe,
+                                     bool in_traffic = false) const {
     std::vector<SelectedPoint> points = keyframe_.points;
     weigh_down_strangers(points, keyframe_.patches.front(), earlier, room_.camera(),
-                         T_earlier_keyframe);
+                         T_earlier_keyframe, in_traffic);
     return points;
   }
   // Of the points that the earlier image shows left (right) of its middle.
@@ -57,6 +58,13 @@ TEST_F(StrangersTest, LeavesASceneThatStandsStillAsItIs) {
   const std::vector<SelectedPoint> points =
       weighed(room_.image(T_world_earlier_, {0.8, 10.0}), T_world_earlier_.inverse());
   EXPECT_LT(share_weighed_down(points, true), 0.02);
+  EXPECT_LT(share_weighed_down(points, false), 0.02);
+}
+
+TEST_F(StrangersTest, InTrafficSoIsWhatIsNotSurelyFound) {
+  const std::vector<SelectedPoint> points =
+      weighed(earlier_with_a_stranger(), T_world_earlier_.inverse(), true);
+  EXPECT_GT(share_weighed_down(points, true), 0.6);
   EXPECT_LT(share_weighed_down(points, false), 0.02);
 }
 
