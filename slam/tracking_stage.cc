@@ -38,7 +38,7 @@ void TrackingStage::prepare(TrackedFrame& out) {
 }
 
 void TrackingStage::track(const SynchronizedFrame& frame, const TrackingReference& reference,
-                          TrackedFrame& out, int finest_level) {
+                          TrackedFrame& out, int finest_level, SearchBudget* search_budget) {
   if (frame.grey.empty()) {
     out.pyramid.clear();
   } else {
@@ -46,7 +46,7 @@ void TrackingStage::track(const SynchronizedFrame& frame, const TrackingReferenc
   }
   take_up(reference);
   if (reference.keyframes > 0) {
-    out.outcome = follow(frame, reference, out.pyramid, finest_level);
+    out.outcome = follow(frame, reference, out.pyramid, finest_level, search_budget);
   } else {
     out.outcome = {};
     out.outcome.becomes_keyframe =
@@ -90,7 +90,7 @@ void TrackingStage::begin_submap(const TrackingReference& reference) {
 // The usual case: a keyframe stands, the frame has an image.
 FrameOutcome TrackingStage::follow(const SynchronizedFrame& frame,
                                    const TrackingReference& reference, const ImagePyramid& pyramid,
-                                   int finest_level) {
+                                   int finest_level, SearchBudget* search_budget) {
   const TrackingTarget& keyframe = reference.keyframe;
   FrameOutcome result;
   result.keyframe_sequence = keyframe.sequence;
@@ -103,7 +103,8 @@ FrameOutcome TrackingStage::follow(const SynchronizedFrame& frame,
       .found_share = found_share_,
       .seconds_since_previous =
           in_doubt_ < kPatientFrames ? motion_.seconds_since_last(frame.exposure) : std::nullopt,
-      .finest_level = finest_level};
+      .finest_level = finest_level,
+      .search_budget = search_budget};
   if (!pyramid.empty()) result.tracking = tracker_.track(keyframe, pyramid, start);
   judge(frame, result.tracking);
   result.in_question = in_question_;
