@@ -39,7 +39,7 @@ void TrackingStage::prepare(TrackedFrame& out) {
 }
 
 void TrackingStage::track(const SynchronizedFrame& frame, const TrackingReference& reference,
-                          TrackedFrame& out, int finest_level) {
+                          TrackedFrame& out, int finest_level, SearchBudget* search_budget) {
   if (frame.grey.empty()) {
     out.pyramid.clear();
   } else {
@@ -47,7 +47,7 @@ void TrackingStage::track(const SynchronizedFrame& frame, const TrackingReferenc
   }
   take_up(reference);
   if (reference.keyframes > 0) {
-    out.outcome = follow(frame, reference, out.pyramid, finest_level);
+    out.outcome = follow(frame, reference, out.pyramid, finest_level, search_budget);
   } else {
     out.outcome = {};
     out.outcome.becomes_keyframe =
@@ -92,7 +92,7 @@ void TrackingStage::begin_submap(const TrackingReference& reference) {
 // The usual case: a keyframe stands, the frame has an image.
 FrameOutcome TrackingStage::follow(const SynchronizedFrame& frame,
                                    const TrackingReference& reference, const ImagePyramid& pyramid,
-                                   int finest_level) {
+                                   int finest_level, SearchBudget* search_budget) {
   const TrackingTarget& keyframe = reference.keyframe;
   FrameOutcome result;
   result.keyframe_sequence = keyframe.sequence;
@@ -106,7 +106,8 @@ FrameOutcome TrackingStage::follow(const SynchronizedFrame& frame,
       .seconds_since_previous =
           velocity_confirmed_ ? motion_.seconds_since_last(frame.exposure) : std::nullopt,
       .in_doubt = in_doubt_ >= kPatientFrames,
-      .finest_level = finest_level};
+      .finest_level = finest_level,
+      .search_budget = search_budget};
   if (!pyramid.empty()) {
     const Vector6d twist = motion_.twist().value_or(Vector6d::Zero());
     result.tracking = tracker_.track(keyframe, pyramid, frame.sweep, twist, start);

@@ -22,9 +22,9 @@ class TrackingStage {
   TrackingStage(const RigCalibration& calibration, const OdometryConfig& config);
 
   // `reference` is the newest there is; if it names another keyframe than the last did, tracking
-  // moves over to it first. `out` is reused. finest_level: see TrackingStart.
+  // moves over to it first. `out` is reused. finest_level, search_budget: see TrackingStart.
   void track(const SynchronizedFrame& frame, const TrackingReference& reference, TrackedFrame& out,
-             int finest_level = 0);
+             int finest_level = 0, SearchBudget* search_budget = nullptr);
   // Sets aside, and touches, the memory that frames of the calibrated camera take.
   void prepare(TrackedFrame& out);
 
@@ -32,7 +32,7 @@ class TrackingStage {
   void take_up(const TrackingReference& reference);
   void begin_submap(const TrackingReference& reference);
   FrameOutcome follow(const SynchronizedFrame& frame, const TrackingReference& reference,
-                      const ImagePyramid& pyramid, int finest_level);
+                      const ImagePyramid& pyramid, int finest_level, SearchBudget* search_budget);
   void learn(const SynchronizedFrame& frame, const TrackingReference& reference,
              const TrackingResult& result, const TrackingStart& start);
   bool wants_keyframe(const SynchronizedFrame& frame, const TrackingReference& reference,

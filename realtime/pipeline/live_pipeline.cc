@@ -236,6 +236,7 @@ void LivePipeline::Parts::count_work(LiveStatus& status) const {
   status.searches_left_out = c.searches_left_out;
   status.windows_shortened = c.windows_shortened;
   status.frames_coarse = c.frames_coarse;
+  status.pose_searches_cut = c.pose_searches_cut;
   status.phase_locked = shared.phase_locked;
   status.wake_up = shared.wake_up.snapshot();
   status.tracking_time = shared.tracking_time.snapshot();

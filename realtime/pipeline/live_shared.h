@@ -56,6 +56,7 @@ struct LiveShared {
     std::atomic<std::uint64_t> frames_coarse{0};    // work left out, by rung
     std::atomic<std::uint64_t> windows_shortened{0};
     std::atomic<std::uint64_t> searches_left_out{0};
+    std::atomic<std::uint64_t> pose_searches_cut{0};  // no rung: a search keeps to its time
     std::atomic<std::uint64_t> previews_left_out{0};
     std::atomic<std::uint64_t> tracking_behind{0};  // signs of overload
     std::atomic<std::uint64_t> window_behind{0};

@@ -51,6 +51,7 @@ struct LiveStatus {
   std::uint64_t searches_left_out = 0;
   std::uint64_t windows_shortened = 0;
   std::uint64_t frames_coarse = 0;
+  std::uint64_t pose_searches_cut = 0;
 
   // Since the start.
   LatencySnapshot wake_up;

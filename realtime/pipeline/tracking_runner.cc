@@ -8,6 +8,8 @@ namespace {
 // A frame that is not there yet is looked for so often, until the next one is nearly due.
 constexpr std::chrono::nanoseconds kFrameLookAgain{500'000};
 constexpr double kWaitingShare = 0.75;
+// What a round still has to do when a search has ended, and what may keep it from the processor.
+constexpr std::chrono::nanoseconds kAfterSearch{1'000'000};
 
 }  // namespace
 
@@ -17,7 +19,10 @@ TrackingRunner::TrackingRunner(TrackingStage& tracking, std::chrono::nanoseconds
       shared_(shared),
       clock_(clock),
       loop_(clock, period, clock.now() + period),
-      phase_(period) {}
+      phase_(period),
+      search_(clock) {
+  search_.rehearse();
+}
 
 void TrackingRunner::run(StageThread& thread) {
   for (;;) {
@@ -56,21 +61,26 @@ bool TrackingRunner::track_waiting(HostTime due) {
   LiveFrame* frame = nullptr;
   for (; waiting > 0 && shared_.to_tracking.consumer().try_pop(frame); --waiting) {
     last_ready_ = frame->ready;
-    track(*frame);
-    late = clock_.now() > due + loop_.period();
+    const HostTime deadline = due + loop_.period();
+    const HostTime now = clock_.now();
+    // Frames of a backlog share what is left of the round.
+    track(*frame, now + (deadline - now) / static_cast<std::int64_t>(waiting));
+    late = clock_.now() > deadline;
     if (late) LiveShared::count(shared_.counters.tracking_behind);
   }
   if (late) LiveShared::count(shared_.counters.deadlines_missed);
   return any;
 }
 
-void TrackingRunner::track(LiveFrame& frame) {
+void TrackingRunner::track(LiveFrame& frame, HostTime deadline) {
   const HostTime begun = clock_.now();
   if (shared_.probe) shared_.probe(LiveStage::kTracking);
   const bool coarse = shared_.sheds(Shed::kTrackingLevels);
   if (coarse) LiveShared::count(shared_.counters.frames_coarse);
   shared_.reference.refresh();
-  tracking_.track(frame.frame, shared_.reference.value(), frame.tracked, coarse ? 1 : 0);
+  search_.begin(deadline - kAfterSearch);
+  tracking_.track(frame.frame, shared_.reference.value(), frame.tracked, coarse ? 1 : 0, &search_);
+  if (search_.end()) LiveShared::count(shared_.counters.pose_searches_cut);
   const HostTime done = clock_.now();
   journal(frame, begun, done);
   if (frame.tracked.outcome.becomes_keyframe) {

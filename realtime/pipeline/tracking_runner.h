@@ -7,6 +7,7 @@
 #include "realtime/executor/loop_clock.h"
 #include "realtime/executor/phase_lock.h"
 #include "realtime/pipeline/live_shared.h"
+#include "realtime/pipeline/search_deadline.h"
 #include "realtime/pipeline/stage_thread.h"
 #include "slam/tracking_stage.h"
 
@@ -27,7 +28,7 @@ class TrackingRunner {
 
  private:
   bool track_waiting(HostTime due);
-  void track(LiveFrame& frame);
+  void track(LiveFrame& frame, HostTime deadline);
   void journal(const LiveFrame& frame, HostTime begun, HostTime done);
 
   TrackingStage& tracking_;
@@ -35,6 +36,7 @@ class TrackingRunner {
   LoopClock& clock_;
   FixedRateLoop loop_;
   PhaseLock phase_;
+  SearchDeadline search_;
   HostTime last_ready_;
 };
 

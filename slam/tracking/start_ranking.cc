@@ -43,9 +43,11 @@ void thin(const PatchSet& patches, std::size_t wanted, PatchSet& out) {
 void rank_starts(const std::vector<Alignment>& starts, const PatchSet& patches,
                  const GreyImage& image, const CameraModel& camera, double mean_inverse_depth,
                  double min_visible, const PhotometryConfig& photometry,
-                 AlignmentWorkspace& workspace, std::vector<RankedStart>& ranked) {
+                 AlignmentWorkspace& workspace, std::vector<RankedStart>& ranked,
+                 SearchBudget* budget) {
   ranked.clear();
   for (const Alignment& start : starts) {
+    if (budget && !budget->allows(SearchBudget::Step::kRank)) break;
     const Alignment at =
         align(patches, image, camera, mean_inverse_depth, start, kFewSteps, photometry, workspace);
     const PatchAgreement agreement = patch_agreement(patches, workspace.current, at.brightness);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam/tracking/photometric_alignment.h"
+#include "slam/tracking/search_budget.h"
 
 namespace sparsight {
 
@@ -18,11 +19,12 @@ struct RankedStart {
 };
 
 // Sorts starting motions by what they promise, best first; those that see fewer than min_visible
-// patches are left out. Cheap: it serves to tell which are worth following. `ranked` keeps its
-// memory.
+// patches are left out, and so are, if there is a budget, the last when it is used up. Cheap: it
+// serves to tell which are worth following. `ranked` keeps its memory.
 void rank_starts(const std::vector<Alignment>& starts, const PatchSet& patches,
                  const GreyImage& image, const CameraModel& camera, double mean_inverse_depth,
                  double min_visible, const PhotometryConfig& photometry,
-                 AlignmentWorkspace& workspace, std::vector<RankedStart>& ranked);
+                 AlignmentWorkspace& workspace, std::vector<RankedStart>& ranked,
+                 SearchBudget* budget = nullptr);
 
 }  // namespace sparsight

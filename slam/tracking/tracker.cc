@@ -103,9 +103,16 @@ void Tracker::set_camera(const CameraModel& camera) {
 
 void Tracker::rehearse_search(const ImagePyramid& image) {
   const int levels = std::min(config_.pyramid_levels, image.levels());
-  TrackingTarget nothing;
-  nothing.patches.resize(static_cast<std::size_t>(levels));
-  if (levels > 0) from_everywhere(nothing, image, {}, levels - 1, {});
+  if (levels == 0) return;
+  const CameraIntrinsics& c = cameras_.front().intrinsics();
+  const std::vector<SelectedPoint> wall(
+      kRankedPatches,
+      {.p_camera = Eigen::Vector3f::UnitZ(), .pixel = Eigen::Vector2d(c.cx, c.cy).cast<float>()});
+  TrackingTarget ahead{.mean_inverse_depth = 1.0};
+  for (int level = 0; level < levels; ++level) {
+    ahead.patches.push_back(make_patches(image, level, cameras_.front(), wall, 0.0));
+  }
+  from_everywhere(ahead, image, {}, levels - 1, {});
 }
 
 Alignment Tracker::refine(const TrackingTarget& keyframe, const ImagePyramid& image,
@@ -228,7 +235,7 @@ const std::vector<RankedStart>& Tracker::ranked_starts(const TrackingTarget& key
                        static_cast<double>(std::max<std::size_t>(1, patches.patches));
   rank_starts(search_.starts, search_.sample, image.level(coarsest), cameras_[level],
               keyframe.mean_inverse_depth, share * config_.min_points, per_pixel(photometry_),
-              workspace_, search_.ranked);
+              workspace_, search_.ranked, start.search_budget);
   return search_.ranked;
 }
 
@@ -243,6 +250,7 @@ TrackingResult Tracker::from_everywhere(const TrackingTarget& keyframe, const Im
   int followed = 0;
   for (std::size_t i = 0; i < std::min(ranked.size(), kExamined) && followed < kFollowed; ++i) {
     if (ranked[i].found_share < ranked.front().found_share - kHopeless) break;
+    if (start.search_budget && !start.search_budget->allows(SearchBudget::Step::kFollow)) break;
     const Alignment coarse =
         refine(keyframe, image, ranked[i].at, coarsest, coarsest, per_pixel(photometry_));
     if (!places.add(coarse.T_camera_keyframe)) continue;

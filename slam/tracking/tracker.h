@@ -10,6 +10,7 @@
 #include "slam/geometry/se3.h"
 #include "slam/image/pyramid.h"
 #include "slam/tracking/photometric_alignment.h"
+#include "slam/tracking/search_budget.h"
 #include "slam/tracking/start_ranking.h"
 #include "slam/tracking/tracking_target.h"
 
@@ -66,6 +67,8 @@ struct TrackingStart {
   // Where refinement ends: 0, or in want of time a coarser level. The pose is then known to that
   // level's pixels, and what is found is judged there.
   int finest_level = 0;
+  // Of a search, if there is need of one; none: every start is tried.
+  SearchBudget* search_budget = nullptr;
 };
 
 // Direct tracking of a frame against a keyframe, Sec. IV-C. Thread-bound; after construction
@@ -93,8 +96,8 @@ class Tracker {
   // What is seen from a pose as it is, with the start's brightness.
   TrackingResult look(const TrackingTarget& keyframe, const ImagePyramid& image,
                       const Eigen::Isometry3d& T_keyframe_camera, const TrackingStart& start);
-  // Looks once for a keyframe of nothing. The first search may come late, and what only a search
-  // touches, memory and code, is to be there then without a page fault.
+  // Looks once for a keyframe of a single point, to the end. The first search may come late, and
+  // what only a search touches, memory and code, is to be there then without a page fault.
   void rehearse_search(const ImagePyramid& image);
 
  private:

@@ -261,7 +261,8 @@ class LiveRun {
                      .frames_dropped = status_.frames_dropped,
                      .events_unrecorded = status_.events_dropped()};
     live.work_left_out = status_.previews_left_out + status_.searches_left_out +
-                         status_.windows_shortened + status_.frames_coarse;
+                         status_.windows_shortened + status_.frames_coarse +
+                         status_.pose_searches_cut;
     if (status_.first_pose) live.first_pose_s = to_seconds(*status_.first_pose);
     live.cpu_share = to_seconds(processor_time()) / std::max(1e-3, to_seconds(wall));
     live.resident_bytes = resident_bytes();

@@ -50,7 +50,8 @@ struct LiveFigures {
   std::uint64_t deadlines_missed = 0;
   std::uint64_t frames_dropped = 0;     // by us, before they were tracked
   std::uint64_t events_unrecorded = 0;  // by us, raw ones
-  std::uint64_t work_left_out = 0;      // previews, loop searches, iterations, levels
+  std::uint64_t work_left_out = 0;      // previews, loop searches, iterations, levels,
+                                        // the ends of searches for a pose
   std::optional<double> first_pose_s;   // after the camera's first frame
   double cpu_share = 0.0;               // of one processor
   std::uint64_t resident_bytes = 0;     // at the end

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "realtime/executor/thread_setup.h"
 #include "slam/window_stage.h"
 #include "tests/realtime/executor/fake_clock.h"
 #include "tests/realtime/guard/realtime_guard.h"
@@ -100,6 +101,7 @@ class Rounds {
 // The heart of it: once it runs, tracking does nothing that could make it wait.
 TEST(TrackingRunner, DoesNothingInSteadyStateThatARealTimeThreadMustNot) {
   if (!RealtimeGuard::available()) GTEST_SKIP() << "not under a sanitizer";
+  set_up_thread({.name = "tracking"});  // its stack has been touched
   Rounds rounds;
   int keyframes = 0;
   int searches = 0;
@@ -207,6 +209,48 @@ TEST(TrackingRunner, CountsAMissedDeadlineAndEveryFrameOfABacklog) {
   EXPECT_EQ(rounds.last_record().sequence, 3U);
   EXPECT_EQ(rounds.shared.counters.deadlines_missed, 1U);
   EXPECT_GE(rounds.shared.counters.tracking_behind, 2U);
+}
+
+// A frame from elsewhere, of which every starting motion is to be tried.
+LiveRecord searched(Rounds& rounds, std::chrono::nanoseconds each_step,
+                    std::chrono::nanoseconds late) {
+  constexpr int kFrame = 17;
+  for (int i = 0; i < kFrame; ++i) {
+    rounds.arrive(i);
+    rounds.tick();
+    rounds.run_window();
+  }
+  SynchronizedFrame elsewhere = rounds.rig().frame(kFrame);
+  elsewhere.grey = rounds.rig().frame(0).grey;
+  rounds.shared.probe = [&rounds, each_step, late](LiveStage) {
+    rounds.clock.advance(late);
+    rounds.clock.each_look = each_step;
+  };
+  rounds.arrive(kFrame, elsewhere);
+  rounds.tick();
+  return rounds.last_record();
+}
+
+TEST(TrackingRunner, SearchesAsLongAsTheFrameHasTime) {
+  Rounds at_leisure;
+  const LiveRecord whole = searched(at_leisure, 0ms, 0ms);
+  ASSERT_GT(whole.outcome.tracking.attempts, 30);
+  EXPECT_EQ(at_leisure.shared.counters.pose_searches_cut, 0U);
+
+  Rounds slow;
+  const LiveRecord cut = searched(slow, 2ms, 40ms);
+  EXPECT_GT(cut.outcome.tracking.attempts, 5);
+  EXPECT_LT(cut.outcome.tracking.attempts, 30);
+  EXPECT_EQ(slow.shared.counters.pose_searches_cut, 1U);
+  EXPECT_EQ(slow.shared.counters.deadlines_missed, 0U);
+}
+
+TEST(TrackingRunner, DoesNotBeginASearchForAFrameThatIsNearlyLate) {
+  Rounds rounds;
+  const LiveRecord record = searched(rounds, 0ms, kRoomPeriod - 5ms);
+  EXPECT_EQ(record.outcome.tracking.attempts, 1);
+  EXPECT_EQ(rounds.shared.counters.pose_searches_cut, 1U);
+  EXPECT_EQ(rounds.shared.counters.deadlines_missed, 0U);
 }
 
 TEST(TrackingRunner, EndsAtACoarserLevelWhenTimeIsShort) {

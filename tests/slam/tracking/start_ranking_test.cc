@@ -8,6 +8,7 @@
 #include "slam/image/pyramid.h"
 #include "slam/tracking/patch_set.h"
 #include "tests/slam/analytic_image.h"
+#include "tests/slam/tracking/counted_budget.h"
 
 namespace sparsight {
 namespace {
@@ -77,14 +78,15 @@ struct Wall {
     patches = make_patches(pyramid, 0, camera, points, 0.0);
   }
 
-  std::vector<RankedStart> rank(const std::vector<Eigen::Isometry3d>& T_camera_keyframe) const {
+  std::vector<RankedStart> rank(const std::vector<Eigen::Isometry3d>& T_camera_keyframe,
+                                SearchBudget* budget = nullptr) const {
     std::vector<Alignment> starts(T_camera_keyframe.size());
     for (std::size_t i = 0; i < starts.size(); ++i) {
       starts[i].T_camera_keyframe = T_camera_keyframe[i];
     }
     AlignmentWorkspace workspace;
     std::vector<RankedStart> ranked;
-    rank_starts(starts, patches, image, camera, 0.2, 30.0, {}, workspace, ranked);
+    rank_starts(starts, patches, image, camera, 0.2, 30.0, {}, workspace, ranked, budget);
     return ranked;
   }
 
@@ -110,6 +112,16 @@ TEST(RankStarts, PutsTheStartThatLeadsHomeFirst) {
 TEST(RankStarts, LeavesOutStartsThatSeeNothing) {
   EXPECT_TRUE(Wall().rank({turned(M_PI)}).empty());
   EXPECT_TRUE(Wall().rank({}).empty());
+}
+
+TEST(RankStarts, TriesTheFirstAsFarAsTheBudgetGoes) {
+  CountedBudget two(2, 0);
+  const std::vector<RankedStart> ranked =
+      Wall().rank({turned(0.45), turned(0.02), turned(0.0)}, &two);
+  ASSERT_EQ(ranked.size(), 2U);
+  EXPECT_EQ(two.asked(SearchBudget::Step::kRank), 3);
+  CountedBudget none(0, 0);
+  EXPECT_TRUE(Wall().rank({turned(0.0)}, &none).empty());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "slam/points/camera_returns.h"
 #include "slam/points/point_selection.h"
 #include "tests/slam/sine_room.h"
+#include "tests/slam/tracking/counted_budget.h"
 #include "tests/synthetic/scene.h"
 
 namespace sparsight {
@@ -98,6 +99,62 @@ TEST_F(TrackerTest, LooksElsewhereOnlyIfTheFirstStartFailsOrNoneIsKnown) {
   EXPECT_TRUE(recovered.ok());
   EXPECT_GT(recovered.attempts, 1);
   expect_near(recovered, T_still_);
+}
+
+// Looks where nothing is to be seen, so that only a search finds the pose.
+class TrackerBudget : public TrackerTest {
+ protected:
+  TrackingResult search(SearchBudget* budget) const {
+    return track(room_.image(T_still_), {.T_keyframe_predicted = pose(0.0, 1.3, 0.0, 0.0, 0.0, 0.0),
+                                         .error_px = 1.0,
+                                         .search_budget = budget});
+  }
+  static void expect_same(const TrackingResult& a, const TrackingResult& b) {
+    EXPECT_EQ(a.status, b.status);
+    EXPECT_EQ(a.T_keyframe_camera.matrix(), b.T_keyframe_camera.matrix());
+    EXPECT_EQ(a.information, b.information);
+    EXPECT_EQ(a.found_share, b.found_share);
+    EXPECT_EQ(a.attempts, b.attempts);
+  }
+};
+
+TEST_F(TrackerBudget, OfNothingLeavesWhatTheFirstStartFound) {
+  CountedBudget nothing(0, 0);
+  const TrackingResult result = search(&nothing);
+  EXPECT_FALSE(result.ok());
+  EXPECT_EQ(result.attempts, 1);
+  EXPECT_EQ(nothing.asked(SearchBudget::Step::kFollow), 0) << "none was ranked";
+}
+
+TEST_F(TrackerBudget, OfOneIsSpentOnTheMostPromisingStart) {
+  CountedBudget one(CountedBudget::kAny, 1);
+  const TrackingResult result = search(&one);
+  EXPECT_TRUE(result.ok());
+  EXPECT_GT(result.attempts, 2) << "it is the best of some";
+  expect_near(result, T_still_);
+}
+
+TEST_F(TrackerBudget, MayEndWhileStartsAreRanked) {
+  CountedBudget few(5, CountedBudget::kAny);
+  const TrackingResult result = search(&few);
+  EXPECT_LE(result.attempts, 1 + 5);
+  EXPECT_EQ(few.asked(SearchBudget::Step::kRank), 6) << "after a no it does not ask again";
+}
+
+TEST_F(TrackerBudget, ThatIsNeverUsedUpChangesNothing) {
+  CountedBudget plenty(CountedBudget::kAny, CountedBudget::kAny);
+  const TrackingResult result = search(&plenty);
+  expect_same(result, search(nullptr));
+  EXPECT_EQ(plenty.asked(SearchBudget::Step::kRank), 34);
+  EXPECT_GE(plenty.asked(SearchBudget::Step::kFollow), 1);
+}
+
+TEST_F(TrackerBudget, IsNotAskedWhereThereIsNoNeedOfASearch) {
+  CountedBudget nothing(0, 0);
+  const TrackingResult result =
+      track(room_.image(T_still_), {.error_px = 1.0, .search_budget = &nothing});
+  EXPECT_TRUE(result.ok());
+  EXPECT_EQ(nothing.asked(SearchBudget::Step::kRank), 0);
 }
 
 // Places with the texture of places; waves resemble each other too much.

@@ -39,6 +39,7 @@ TEST(LiveLine, ShowsTheLastSecondTheSensorsAndWhatIsLeftOut) {
 
 TEST(LiveJson, IsOneLineThatAMachineReads) {
   LiveView view = a_second_of_a_run();
+  view.now.pose_searches_cut = 7;
   view.recorder = RecorderReport{.state = RecorderState::kDiskFull, .message = "full"};
   const std::string line = live_json(view);
   EXPECT_EQ(line.find('\n'), std::string::npos);
@@ -46,6 +47,7 @@ TEST(LiveJson, IsOneLineThatAMachineReads) {
   EXPECT_EQ(json.at("state"), "tracking");
   EXPECT_EQ(json.at("exposure_to_pose_ms").at("count"), 30);
   EXPECT_EQ(json.at("lidar").at("message"), "no network");
+  EXPECT_EQ(json.at("left_out").at("pose_searches_cut"), 7);
   EXPECT_EQ(json.at("T_odom_camera").at("position_m"), (std::vector<double>{1, 2, 3}));
   EXPECT_EQ(json.at("recorder").at("state"), "ended: the disk is full");
 }
