@@ -8,6 +8,7 @@ namespace sparsight {
 namespace {
 
 constexpr double kRowRad = 1.6 * M_PI / 180.0;
+constexpr int kEnoughOfARing = 50;
 constexpr double kBeyondRad = 1.5 * M_PI / 180.0;
 
 }  // namespace
@@ -24,8 +25,11 @@ SweepRows::SweepRows(std::span<const SweepPoint> points) {
   std::vector<Ring> rings;
   for (const SweepPoint& point : points) {
     if (point.ring >= rings.size()) rings.resize(point.ring + 1U);
-    rings[point.ring].elevation += elevation_rad(point.p_lidar);
-    ++rings[point.ring].returns;
+    Ring& ring = rings[point.ring];
+    // The first of a ring tell its elevation as well as all do.
+    if (ring.returns == kEnoughOfARing) continue;
+    ring.elevation += elevation_rad(point.p_lidar);
+    ++ring.returns;
   }
   std::vector<std::size_t> upwards;
   for (std::size_t ring = 0; ring < rings.size(); ++ring) {

@@ -10,7 +10,7 @@
 namespace sparsight {
 namespace {
 
-constexpr std::size_t kLookedAt = 1500;
+constexpr std::size_t kLookedAt = 1000;
 constexpr std::size_t kMostOfADirection = kMostSampled / 3;
 // Golden section: steps around a sweep that never fall into the pattern of its rings.
 constexpr double kStep = 0.61803398874989485;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kColumns = 180;  // of 2 degrees, as the bins of Sec. IV-B4
 constexpr int kElevations = 360;
-constexpr std::size_t kEnoughReturns = 40000;
+constexpr std::size_t kEnoughReturns = 24000;
 constexpr double kFewestReturns = 6.0;
 constexpr double kThickest = 0.2;          // metres, rms: hedges are planes, trees are not
 constexpr double kWidthOfThickness = 3.0;  // a plane is wider than it is thick, both ways
@@ -42,12 +42,21 @@ struct Moments {
   }
 };
 
+// A lower bound of the smallest eigenvalue: the determinant by the sum of the principal minors.
+double least_variance(const Eigen::Matrix3d& c) {
+  const double minors = c(0, 0) * c(1, 1) - c(0, 1) * c(0, 1) + c(0, 0) * c(2, 2) -
+                        c(0, 2) * c(0, 2) + c(1, 1) * c(2, 2) - c(1, 2) * c(1, 2);
+  return minors > 0.0 ? c.determinant() / minors : 0.0;
+}
+
 // The plane of returns; no normal if they do not lie on one.
 SweepSurface::Plane plane_through(const Moments& returns) {
   if (returns.n < kFewestReturns) return {};
   const Eigen::Vector3d mean = returns.sum / returns.n;
+  const Eigen::Matrix3d covariance = returns.squares / returns.n - mean * mean.transpose();
+  if (least_variance(covariance) > kThickest * kThickest) return {};
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal;
-  principal.computeDirect(returns.squares / returns.n - mean * mean.transpose());
+  principal.computeDirect(covariance);
   const Eigen::Vector3d extent = principal.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   if (extent.x() > kThickest) return {};
   if (extent.y() < kWidthOfThickness * std::max(extent.x(), kLeastThickness)) return {};
@@ -57,37 +66,54 @@ SweepSurface::Plane plane_through(const Moments& returns) {
           .reach_m = static_cast<float>(2.0 * extent.z())};
 }
 
+// The returns of a bin and of those beside it in its row.
+struct Neighbourhood {
+  Moments both_sides, left, right;
+};
+
 // Rows and columns around a bin: all, or at an edge of what is there one side of it, or a corner.
 struct Block {
-  int first_row, last_row, first_column, last_column;
+  int first_row, last_row;
+  Moments Neighbourhood::*columns;
 };
-constexpr std::array<Block, 7> kBlocks{{{-1, 1, -1, 1},
-                                        {-1, 0, -1, 1},
-                                        {0, 1, -1, 1},
-                                        {-1, 0, -1, 0},
-                                        {-1, 0, 0, 1},
-                                        {0, 1, -1, 0},
-                                        {0, 1, 0, 1}}};
+constexpr std::array<Block, 7> kBlocks{{{-1, 1, &Neighbourhood::both_sides},
+                                        {-1, 0, &Neighbourhood::both_sides},
+                                        {0, 1, &Neighbourhood::both_sides},
+                                        {-1, 0, &Neighbourhood::left},
+                                        {-1, 0, &Neighbourhood::right},
+                                        {0, 1, &Neighbourhood::left},
+                                        {0, 1, &Neighbourhood::right}}};
 
 class Bins {
  public:
   Bins(std::span<const SweepPoint> points, const SweepRows& rows)
-      : rows_(rows.count()), moments_(static_cast<std::size_t>(rows_) * kColumns) {
+      : rows_(rows.count()), bins_(static_cast<std::size_t>(rows_) * kColumns) {
     for (const SweepPoint& point : points) {
       const auto row = static_cast<std::size_t>(rows.of_ring(point.ring));
-      moments_[row * kColumns + column_of(point.p_lidar)].add(point.p_lidar.cast<double>());
+      bins_[row * kColumns + column_of(point.p_lidar)].add(point.p_lidar.cast<double>());
+    }
+    around_.resize(bins_.size());
+    for (std::size_t i = 0; i < bins_.size(); ++i) {
+      const std::size_t column = i % kColumns;
+      const Moments& before = bins_[column == 0 ? i + kColumns - 1 : i - 1];
+      const Moments& after = bins_[column == kColumns - 1 ? i + 1 - kColumns : i + 1];
+      Neighbourhood& around = around_[i];
+      around.left = bins_[i];
+      around.left.add(before);
+      around.right = bins_[i];
+      around.right.add(after);
+      around.both_sides = around.left;
+      around.both_sides.add(after);
     }
   }
 
   SweepSurface::Plane plane(int row, int column) const {
-    if (at(row, column).n == 0.0) return {};
+    if (bins_[index(row, column)].n == 0.0) return {};
     for (const Block& block : kBlocks) {
       Moments returns;
-      for (int r = std::max(0, row + block.first_row);
-           r <= std::min(rows_ - 1, row + block.last_row); ++r) {
-        for (int c = block.first_column; c <= block.last_column; ++c) {
-          returns.add(at(r, (column + c + kColumns) % kColumns));
-        }
+      const int last = std::min(rows_ - 1, row + block.last_row);
+      for (int r = std::max(0, row + block.first_row); r <= last; ++r) {
+        returns.add(around_[index(r, column)].*block.columns);
       }
       const SweepSurface::Plane plane = plane_through(returns);
       if (!plane.normal.isZero()) return plane;
@@ -96,12 +122,13 @@ class Bins {
   }
 
  private:
-  const Moments& at(int row, int column) const {
-    return moments_[static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column)];
+  static std::size_t index(int row, int column) {
+    return static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column);
   }
 
   int rows_;
-  std::vector<Moments> moments_;
+  std::vector<Moments> bins_;
+  std::vector<Neighbourhood> around_;
 };
 
 }  // namespace
