@@ -3,16 +3,22 @@
 namespace sparsight {
 namespace {
 
-// Of what the LiDAR sees: less on the keyframe's surface, and it is asked where it would be
-// instead.
+// Less of the sweep on the keyframe's surface, and the LiDAR is asked where it would be.
 constexpr double kAsKnown = 0.8;
+// For so many frames after one that the image left in doubt, it leaves each of them so: between two
+// cars much may be found of one.
+constexpr int kFramesOfTraffic = 10;
 constexpr double kBetter = 0.1;  // that much more on the surface is not chance
-constexpr double kMost = 0.5;
+constexpr double kMost = 0.5;    // less is no opinion
+constexpr double kAgreeM = 0.15;
+constexpr double kAgreeDeg = 1.0;
+constexpr double kHardly = 0.75;
 constexpr double kSeenAtAll = 0.1;  // of the patches; in the dark none is found
 
-TrackingStart from(const SweepArbiter::Opinion& opinion, TrackingStart start) {
-  start.T_keyframe_predicted = start.T_keyframe_previous = opinion.T_keyframe_camera;
-  return start;
+// Where the LiDAR is sure it errs by centimetres.
+bool agree(const SweepArbiter::Opinion& opinion, const TrackingResult& result) {
+  const Eigen::Isometry3d apart = opinion.T_keyframe_camera.inverse() * result.T_keyframe_camera;
+  return apart.translation().norm() < kAgreeM && rotation_deg(apart) < kAgreeDeg;
 }
 
 }  // namespace
@@ -32,7 +38,12 @@ TrackingResult ArbitratedTracker::track(const TrackingTarget& keyframe, const Im
   }
   arbiter_.hear(sweep, twist, keyframe.surface, start.T_keyframe_predicted);
   Attempt best = attempt(keyframe, image, start, start);
-  if (!best.settled || best.share < kAsKnown) best = arbitrate(keyframe, image, start, best);
+  if (in_doubt(best) || best.share < kAsKnown) best = arbitrate(keyframe, image, start, best);
+  if (best.result.vouched && best.result.found_share < kWellFound) {
+    in_traffic_ = kFramesOfTraffic;
+  } else if (in_traffic_ > 0) {
+    --in_traffic_;
+  }
   if (best.settled || best.result.vouched || !searches_) return best.result;
   return tracker_.search(keyframe, image, start, best.result);
 }
@@ -47,6 +58,27 @@ ArbitratedTracker::Attempt ArbitratedTracker::attempt(const TrackingTarget& keyf
   return made;
 }
 
+bool ArbitratedTracker::contradicts(const SweepArbiter::Opinion& opinion,
+                                    const Attempt& attempt) const {
+  return opinion.share > attempt.share + kBetter ||
+         (in_doubt(attempt) && !agree(opinion, attempt.result));
+}
+
+// From the LiDAR's pose; where it decides and the image leads away again, at it.
+ArbitratedTracker::Attempt ArbitratedTracker::attempt_at(const SweepArbiter::Opinion& opinion,
+                                                         bool decides,
+                                                         const TrackingTarget& keyframe,
+                                                         const ImagePyramid& image,
+                                                         const TrackingStart& start) {
+  TrackingStart there = start;
+  there.T_keyframe_predicted = there.T_keyframe_previous = opinion.T_keyframe_camera;
+  Attempt made = attempt(keyframe, image, there, start);
+  if (decides && contradicts(opinion, made)) {
+    made.result = tracker_.look(keyframe, image, opinion.T_keyframe_camera, start);
+  }
+  return made;
+}
+
 ArbitratedTracker::Attempt ArbitratedTracker::arbitrate(const TrackingTarget& keyframe,
                                                         const ImagePyramid& image,
                                                         const TrackingStart& start,
@@ -56,23 +88,23 @@ ArbitratedTracker::Attempt ArbitratedTracker::arbitrate(const TrackingTarget& ke
       expected_better ? start.T_keyframe_predicted : first.result.T_keyframe_camera);
   const bool possible = start.in_doubt || tracker_.reachable(opinion.T_keyframe_camera, start);
   const bool decides = opinion.sure && opinion.share > kMost && possible;
-  const bool contradicts = opinion.share > first.share + kBetter;
 
   Attempt best = first;
-  if (possible && (decides ? contradicts : !first.settled)) {
-    Attempt there = attempt(keyframe, image, from(opinion, start), start);
-    there.result.attempts += first.result.attempts;
-    if (decides && there.share < opinion.share - kBetter) {
-      there.result = tracker_.look(keyframe, image, opinion.T_keyframe_camera, start);
-    }
-    const bool finds_more = there.result.ok() >= first.result.ok() &&
-                            there.result.found_share > first.result.found_share;
-    if (decides || finds_more) best = there;
+  if (possible && (decides ? contradicts(opinion, first) : !first.settled)) {
+    const Attempt there = attempt_at(opinion, decides, keyframe, image, start);
+    const double found = first.result.found_share;
+    const bool finds_more =
+        there.result.ok() >= first.result.ok() && there.result.found_share > found;
+    // Of two poses that lie on the surface nearly alike, one that the image hardly finds is wrong.
+    const bool alike = first.settled && opinion.share <= first.share + kBetter;
+    const bool hardly = there.result.found_share < kHardly * found;
+    if (finds_more || (decides && !(alike && hardly))) best = there;
+    best.result.attempts = 2;
   }
-  if (!decides || best.result.status == TrackingResult::Status::kTooFewPoints ||
-      best.result.found_share < kSeenAtAll) {
-    return best;
-  }
+  const bool vouched = decides && agree(opinion, best.result) &&
+                       best.result.status != TrackingResult::Status::kTooFewPoints &&
+                       best.result.found_share >= kSeenAtAll;
+  if (!vouched) return best;
   if (!best.result.ok()) best.result.status = TrackingResult::Status::kConverged;
   best.result.vouched = true;
   return best;

@@ -30,14 +30,19 @@ class ArbitratedTracker {
                        const Sweep& sweep, const Vector6d& twist, const TrackingStart& start);
 
  private:
-  // One direct attempt, and what the LiDAR says to it.
+  // One direct attempt, and how much of the sweep lies on the keyframe's surface from there.
   struct Attempt {
     TrackingResult result;
-    double share = 0.0;  // of the sweep, on the keyframe's surface
+    double share = 0.0;
     bool settled = false;
   };
+  bool in_doubt(const Attempt& attempt) const { return !attempt.settled || in_traffic_ > 0; }
+  bool contradicts(const SweepArbiter::Opinion& opinion, const Attempt& attempt) const;
   Attempt attempt(const TrackingTarget& keyframe, const ImagePyramid& image,
                   const TrackingStart& start, const TrackingStart& expected);
+  Attempt attempt_at(const SweepArbiter::Opinion& opinion, bool decides,
+                     const TrackingTarget& keyframe, const ImagePyramid& image,
+                     const TrackingStart& start);
   Attempt arbitrate(const TrackingTarget& keyframe, const ImagePyramid& image,
                     const TrackingStart& start, const Attempt& first);
 
@@ -45,6 +50,7 @@ class ArbitratedTracker {
   bool searches_;
   Tracker tracker_;
   SweepArbiter arbiter_;
+  int in_traffic_ = 0;  // frames to come in which the image is not believed by itself
 };
 
 }  // namespace sparsight

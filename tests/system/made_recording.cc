@@ -1,5 +1,6 @@
 #include "tests/system/made_recording.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "tests/synthetic/dataset_writer.h"
@@ -25,6 +26,12 @@ std::filesystem::path require(Result<std::filesystem::path> folder) {
 synthetic::Scene small_street() { return half_size("street"); }
 
 synthetic::Scene small_corridor() { return half_size("corridor"); }
+
+synthetic::Scene small_lights() {
+  synthetic::Scene scene = half_size("lights");
+  std::get<synthetic::SpinningLidar>(scene.sensor).azimuth_limit_rad = M_PI;
+  return scene;
+}
 
 std::filesystem::path make_odometry_sequence(const synthetic::Scene& scene, std::size_t frames,
                                              const std::filesystem::path& root) {

@@ -13,6 +13,8 @@ namespace sparsight {
 synthetic::Scene small_street();
 // The hand-held corridor at half size.
 synthetic::Scene small_corridor();
+// Before a crossing at half size: cars cross, and others leave from beside us.
+synthetic::Scene small_lights();
 
 // The folders a person would give to `sparsight replay`.
 std::filesystem::path make_odometry_sequence(const synthetic::Scene& scene, std::size_t frames,

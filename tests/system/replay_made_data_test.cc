@@ -55,6 +55,18 @@ TEST(ReplayMadeData, ARawDriveIsMovedToTheExposureFiringByFiring) {
   EXPECT_LT(ate_m(session), 0.06);
 }
 
+TEST(ReplayMadeData, ACarAtTheLightsStaysWhereItStandsWhileOthersFillTheImage) {
+  const fs::path root = scratch_folder();
+  const fs::path sequence = make_odometry_sequence(small_lights(), 100, root / "data");
+  const fs::path session = root / "session";
+  const ProgramRun run =
+      run_sparsight({"replay", sequence, "--rays", "16", "--output", session, "--no-map"});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(session_of(session).at("predicted"), 0);
+  EXPECT_THAT(text_of(session / "frames.csv"), ::testing::Not(::testing::HasSubstr("lost")));
+  EXPECT_LT(ate_m(session), 0.15);  // it was 2 m before the LiDAR was asked
+}
+
 TEST(ReplayMadeData, TwoReplaysAreByteIdentical) {
   const fs::path root = scratch_folder();
   const fs::path sequence = make_odometry_sequence(small_street(), 15, root / "data");
