@@ -8,12 +8,14 @@
 #include "slam/loop/integrated_depth.h"
 #include "slam/loop/join_doubts.h"
 #include "slam/loop/join_evidence.h"
+#include "slam/loop/place_image.h"
 
 namespace sparsight {
 namespace {
 
 constexpr std::size_t kMatchesPerQuery = 10;
-constexpr int kQuestionsPerKeyframe = 2;   // of those that had to wait, one a keyframe
+constexpr int kQuestionsPerKeyframe = 2;  // of those that had to wait, one a keyframe
+constexpr int kChecksAtOnce = 4;
 constexpr std::size_t kMostPoints = 3000;  // of a keyframe's cloud
 // Of a step of which nothing is known: not a tenth of a turn, not ten metres.
 constexpr double kBoundRad = 0.5;
@@ -90,8 +92,9 @@ struct LoopCloser::State {
   bool ask(std::size_t index);
   bool ask_at_once(std::size_t index);
   bool adrift() const;
-  bool verify_some(std::size_t index, const std::vector<std::uint32_t>& candidates);
-  bool verify(std::size_t index, std::size_t candidate);
+  bool verify_some(std::size_t index, const std::vector<std::uint32_t>& candidates,
+                   int most_checks);
+  bool verify(std::size_t index, const LoopView& view, std::size_t candidate);
   bool believe(const SeenAgain& loop);
   bool join(const SeenAgain& loop);
   bool continues(const RetiredKeyframe& keyframe) const;
@@ -104,7 +107,8 @@ struct LoopCloser::State {
 };
 
 void LoopCloser::State::remember(const RetiredKeyframe& keyframe, const CameraIntrinsics& camera) {
-  const int level = std::min(config.image_level, keyframe.pyramid.levels() - 1);
+  const int level =
+      place_image_level(std::min(config.image_level, keyframe.pyramid.levels() - 1), camera.width);
   Place place{.session = session,
               .sequence = keyframe.sequence,
               .T_odometry_camera = keyframe.T_world_camera,
@@ -181,15 +185,11 @@ LoopView LoopCloser::State::view_of(std::size_t index) const {
   return view;
 }
 
-bool LoopCloser::State::verify(std::size_t index, std::size_t candidate) {
-  const bool known = std::ranges::any_of(found, [&](const SeenAgain& loop) {
-    return loop.current == index && loop.candidate == candidate;
-  });
-  if (known) return false;  // asked about again, with more depth
+bool LoopCloser::State::verify(std::size_t index, const LoopView& view, std::size_t candidate) {
   ++statistics.candidates;
   LoopVerifier verifier(CameraModel(places[index].camera), config.verification, odometry.points,
                         odometry.tracker, odometry.photometry);
-  const LoopCheck check = verifier.check(view_of(index), view_of(candidate));
+  const LoopCheck check = verifier.check(view, view_of(candidate));
   ++statistics.verdicts[check.verdict];
   if (check.verdict != LoopCheck::Verdict::kAccepted) return false;
   const SeenAgain loop{.current = index, .candidate = candidate, .check = check};
@@ -246,16 +246,22 @@ bool LoopCloser::State::ask(std::size_t index) {
   const std::vector<PlaceMatch> matches =
       database.query(places[index].bag, end, similarity_with_neighbours(index), kMatchesPerQuery);
   if (!matches.empty()) ++statistics.queries;
-  return verify_some(index, filter.next(matches));
+  return verify_some(index, filter.next(matches), config.checks_per_keyframe);
 }
 
 // Where the sub-map stands is wanted soon: the newest keyframe is asked about with the depth of
-// those before it alone, and what is most similar is verified, if it was the same place before or
-// not. That a single image finds look-alikes is JoinEvidence's to find out.
+// those before it alone, and what is most similar is verified, whether or not it was the same place
+// before. That a single image finds look-alikes is JoinEvidence's to find out.
 bool LoopCloser::State::ask_at_once(std::size_t index) {
-  const std::vector<PlaceMatch> matches =
-      database.query(places[index].bag, places[index].submap, 0.0, kMatchesPerQuery);
-  return verify_some(index, CandidateFilter(1).next(matches));
+  std::vector<std::uint32_t> candidates;
+  for (const PlaceMatch& match :
+       database.query(places[index].bag, places[index].submap, 0.0, kMatchesPerQuery)) {
+    const bool beside_another = std::ranges::any_of(candidates, [&](std::uint32_t other) {
+      return std::max(other, match.place) - std::min(other, match.place) <= 1;
+    });
+    if (!beside_another) candidates.push_back(match.place);
+  }
+  return verify_some(index, candidates, kChecksAtOnce);
 }
 
 // Whether nobody knows where the newest keyframe's sub-map stands.
@@ -264,12 +270,18 @@ bool LoopCloser::State::adrift() const {
   return submap > 0 && graph.part_of(submap) == submap;
 }
 
-bool LoopCloser::State::verify_some(std::size_t index,
-                                    const std::vector<std::uint32_t>& candidates) {
+bool LoopCloser::State::verify_some(std::size_t index, const std::vector<std::uint32_t>& candidates,
+                                    int most_checks) {
   int checks = 0;
+  std::optional<LoopView> view;
   for (const std::uint32_t candidate : candidates) {
-    if (checks++ == config.checks_per_keyframe) break;
-    if (verify(index, candidate)) return true;
+    const bool known = std::ranges::any_of(found, [&](const SeenAgain& loop) {
+      return loop.current == index && loop.candidate == candidate;
+    });
+    if (known) continue;  // asked about again, with more depth
+    if (checks++ == most_checks) break;
+    if (!view) view = view_of(index);
+    if (verify(index, *view, candidate)) return true;
   }
   return false;
 }
