@@ -56,6 +56,10 @@ bool JoinEvidence::apart(const SeenAgain& a, const SeenAgain& b, const PoseGraph
 
 std::vector<SeenAgain> JoinEvidence::add(const SeenAgain& loop, const LoopGraph& graph) {
   if (!sure(loop.check)) return {};
+  // Asked about again, with more depth: one piece of evidence still.
+  std::erase_if(waiting_, [&](const SeenAgain& other) {
+    return other.current == loop.current && other.candidate == loop.candidate;
+  });
   std::vector<SeenAgain> agreeing{loop};
   int against = 0;
   bool from_elsewhere = false;

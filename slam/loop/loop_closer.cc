@@ -6,13 +6,16 @@
 #include <utility>
 
 #include "slam/loop/integrated_depth.h"
+#include "slam/loop/join_doubts.h"
 #include "slam/loop/join_evidence.h"
+#include "slam/loop/place_image.h"
 
 namespace sparsight {
 namespace {
 
 constexpr std::size_t kMatchesPerQuery = 10;
-constexpr int kQuestionsPerKeyframe = 2;   // of those that had to wait, one a keyframe
+constexpr int kQuestionsPerKeyframe = 2;  // of those that had to wait, one a keyframe
+constexpr int kChecksAtOnce = 4;
 constexpr std::size_t kMostPoints = 3000;  // of a keyframe's cloud
 // Of a step of which nothing is known: not a tenth of a turn, not ten metres.
 constexpr double kBoundRad = 0.5;
@@ -65,7 +68,8 @@ struct LoopCloser::State {
         database(vocabulary->words()),
         filter(config.consistent_queries),
         graph(config.dcs_phi),
-        evidence(config.join) {}
+        evidence(config.join),
+        doubts(config.join) {}
 
   OdometryConfig odometry;
   LoopConfig config;
@@ -75,6 +79,7 @@ struct LoopCloser::State {
   CandidateFilter filter;
   LoopGraph graph;
   JoinEvidence evidence;  // for sub-maps that nothing connects
+  JoinDoubts doubts;      // about those that loops have joined
   std::vector<Place> places;
   std::size_t earlier = 0;                            // the first of them are an earlier map's
   std::uint32_t session = 0;                          // this one
@@ -85,7 +90,11 @@ struct LoopCloser::State {
 
   void remember(const RetiredKeyframe& keyframe, const CameraIntrinsics& camera);
   bool ask(std::size_t index);
-  bool verify(std::size_t index, std::size_t candidate);
+  bool ask_at_once(std::size_t index);
+  bool adrift() const;
+  bool verify_some(std::size_t index, const std::vector<std::uint32_t>& candidates,
+                   int most_checks);
+  bool verify(std::size_t index, const LoopView& view, std::size_t candidate);
   bool believe(const SeenAgain& loop);
   bool join(const SeenAgain& loop);
   bool continues(const RetiredKeyframe& keyframe) const;
@@ -98,7 +107,8 @@ struct LoopCloser::State {
 };
 
 void LoopCloser::State::remember(const RetiredKeyframe& keyframe, const CameraIntrinsics& camera) {
-  const int level = std::min(config.image_level, keyframe.pyramid.levels() - 1);
+  const int level =
+      place_image_level(std::min(config.image_level, keyframe.pyramid.levels() - 1), camera.width);
   Place place{.session = session,
               .sequence = keyframe.sequence,
               .T_odometry_camera = keyframe.T_world_camera,
@@ -175,11 +185,11 @@ LoopView LoopCloser::State::view_of(std::size_t index) const {
   return view;
 }
 
-bool LoopCloser::State::verify(std::size_t index, std::size_t candidate) {
+bool LoopCloser::State::verify(std::size_t index, const LoopView& view, std::size_t candidate) {
   ++statistics.candidates;
   LoopVerifier verifier(CameraModel(places[index].camera), config.verification, odometry.points,
                         odometry.tracker, odometry.photometry);
-  const LoopCheck check = verifier.check(view_of(index), view_of(candidate));
+  const LoopCheck check = verifier.check(view, view_of(candidate));
   ++statistics.verdicts[check.verdict];
   if (check.verdict != LoopCheck::Verdict::kAccepted) return false;
   const SeenAgain loop{.current = index, .candidate = candidate, .check = check};
@@ -188,12 +198,17 @@ bool LoopCloser::State::verify(std::size_t index, std::size_t candidate) {
 
 // Between keyframes that are connected already.
 bool LoopCloser::State::believe(const SeenAgain& loop) {
-  if (!graph.add_loop(loop.current, loop.candidate, loop.check.T_current_candidate,
-                      loop.check.information)) {
-    ++statistics.contradicted;
-    return false;
+  if (graph.add_loop(loop.current, loop.candidate, loop.check.T_current_candidate,
+                     loop.check.information)) {
+    found.push_back(loop);
+    return true;
   }
-  found.push_back(loop);
+  ++statistics.contradicted;
+  auto revised = doubts.add(loop, graph, [this](std::size_t i) { return places[i].submap; });
+  if (!revised) return false;
+  graph = std::move(revised->graph);
+  found.insert(found.end(), revised->loops.begin(), revised->loops.end());
+  ++statistics.joins_revised;
   return true;
 }
 
@@ -231,10 +246,42 @@ bool LoopCloser::State::ask(std::size_t index) {
   const std::vector<PlaceMatch> matches =
       database.query(places[index].bag, end, similarity_with_neighbours(index), kMatchesPerQuery);
   if (!matches.empty()) ++statistics.queries;
+  return verify_some(index, filter.next(matches), config.checks_per_keyframe);
+}
+
+// Where the sub-map stands is wanted soon: the newest keyframe is asked about with the depth of
+// those before it alone, and what is most similar is verified, whether or not it was the same place
+// before. That a single image finds look-alikes is JoinEvidence's to find out.
+bool LoopCloser::State::ask_at_once(std::size_t index) {
+  std::vector<std::uint32_t> candidates;
+  for (const PlaceMatch& match :
+       database.query(places[index].bag, places[index].submap, 0.0, kMatchesPerQuery)) {
+    const bool beside_another = std::ranges::any_of(candidates, [&](std::uint32_t other) {
+      return std::max(other, match.place) - std::min(other, match.place) <= 1;
+    });
+    if (!beside_another) candidates.push_back(match.place);
+  }
+  return verify_some(index, candidates, kChecksAtOnce);
+}
+
+// Whether nobody knows where the newest keyframe's sub-map stands.
+bool LoopCloser::State::adrift() const {
+  const std::size_t submap = places.back().submap;
+  return submap > 0 && graph.part_of(submap) == submap;
+}
+
+bool LoopCloser::State::verify_some(std::size_t index, const std::vector<std::uint32_t>& candidates,
+                                    int most_checks) {
   int checks = 0;
-  for (const std::uint32_t candidate : filter.next(matches)) {
-    if (checks++ == config.checks_per_keyframe) break;
-    if (verify(index, candidate)) return true;
+  std::optional<LoopView> view;
+  for (const std::uint32_t candidate : candidates) {
+    const bool known = std::ranges::any_of(found, [&](const SeenAgain& loop) {
+      return loop.current == index && loop.candidate == candidate;
+    });
+    if (known) continue;  // asked about again, with more depth
+    if (checks++ == most_checks) break;
+    if (!view) view = view_of(index);
+    if (verify(index, *view, candidate)) return true;
   }
   return false;
 }
@@ -252,7 +299,7 @@ bool LoopCloser::add(const RetiredKeyframe& keyframe, const CameraIntrinsics& ca
   if (keyframe.pyramid.empty()) return false;
   s.remember(keyframe, camera);
   const auto delay = static_cast<std::size_t>(s.config.neighbours);
-  bool moved = false;
+  bool moved = search && s.adrift() && s.ask_at_once(s.places.size() - 1);
   for (int i = 0; search && i < kQuestionsPerKeyframe && s.places.size() > s.asked + delay; ++i) {
     moved = s.ask(s.asked++) || moved;
   }
@@ -359,10 +406,7 @@ std::vector<LoopClosure> LoopCloser::loops() const {
   const State& s = *state_;
   std::vector<LoopClosure> standing;
   for (const SeenAgain& loop : s.found) {
-    const bool stands = std::ranges::any_of(s.graph.graph().edges, [&](const PoseEdge& edge) {
-      return edge.loop && edge.from == loop.current && edge.to == loop.candidate;
-    });
-    if (!stands) continue;
+    if (!s.graph.has(loop.edge())) continue;
     standing.push_back({.candidate = s.places[loop.candidate].sequence,
                         .current = s.places[loop.current].sequence,
                         .check = loop.check,

@@ -52,7 +52,8 @@ struct LoopStatistics {
   std::size_t candidates = 0;  // that several queries agreed about, and were verified
   std::map<LoopCheck::Verdict, std::size_t> verdicts;
   std::size_t submaps_joined = 0;
-  std::size_t contradicted = 0;  // accepted by sight, but the graph speaks against them
+  std::size_t joins_revised = 0;  // that later loops showed to be wrong
+  std::size_t contradicted = 0;   // accepted by sight, but the graph speaks against them
 };
 
 // Sec. IV-E on one page: recognises places among the keyframes that left the window, verifies them,

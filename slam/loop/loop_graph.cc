@@ -35,6 +35,10 @@ void move_onto_other(PoseGraph& graph, const std::vector<std::size_t>& part, con
   }
 }
 
+bool same_loop(const PoseEdge& a, const PoseEdge& b) {
+  return a.loop && b.loop && a.from == b.from && a.to == b.to;
+}
+
 }  // namespace
 
 void LoopGraph::resume(PoseGraph graph) {
@@ -91,6 +95,21 @@ bool LoopGraph::join(std::span<const PoseEdge> loops) {
   graph_ = std::move(joined);
   part_ = connected_parts(graph_);
   return true;
+}
+
+bool LoopGraph::has(const PoseEdge& loop) const {
+  return std::ranges::any_of(graph_.edges,
+                             [&](const PoseEdge& edge) { return same_loop(edge, loop); });
+}
+
+LoopGraph LoopGraph::without(std::span<const PoseEdge> loops) const {
+  LoopGraph rest = *this;
+  std::erase_if(rest.graph_.edges, [&](const PoseEdge& edge) {
+    return std::ranges::any_of(loops, [&](const PoseEdge& loop) { return same_loop(edge, loop); });
+  });
+  rest.last_ = optimize(rest.graph_, {.max_iterations = kIterations, .dcs_phi = dcs_phi_});
+  rest.part_ = connected_parts(rest.graph_);
+  return rest;
 }
 
 }  // namespace sparsight

@@ -38,6 +38,11 @@ class LoopGraph {
   // before, if the loops contradict each other.
   bool join(std::span<const PoseEdge> loops);
 
+  // Whether a loop between the two keyframes of `loop` stands.
+  bool has(const PoseEdge& loop) const;
+  // As if these loops had never been found.
+  LoopGraph without(std::span<const PoseEdge> loops) const;
+
   const PoseGraph& graph() const { return graph_; }
   const GraphSummary& last() const { return last_; }
 

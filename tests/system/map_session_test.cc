@@ -1,7 +1,10 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/system/program.h"
 
@@ -50,6 +53,60 @@ TEST(MapSession, IsFoundAgainByTheNextSessionAndLeftAsTheUnion) {
       run_sparsight({"replay", recording, "--output", folder / "fourth", "--map", map, "--quiet"});
   EXPECT_EQ(damaged.exit_code, 1);
   EXPECT_THAT(damaged.errors, ::testing::HasSubstr("map.index: is cut off"));
+}
+
+// A path's lines, as if all of it had happened later.
+std::string later(const std::string& tum, double seconds) {
+  std::istringstream lines(tum);
+  std::ostringstream result;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#')) continue;
+    const std::size_t blank = line.find(' ');
+    result << fmt::format("{:.9f}{}\n", std::stod(line.substr(0, blank)) + seconds,
+                          line.substr(blank));
+  }
+  return result.str();
+}
+
+// Power comes back in the middle of a known place: on the second lap of a corridor of which the map
+// has a third.
+TEST(MapSession, BegunElsewhereInAKnownPlaceGoesOnInItsFrame) {
+  const fs::path folder = scratch_folder();
+  const auto record = [&](const char* name, std::vector<std::string> words) {
+    words.insert(words.begin(), {"simulate", "--scene", "corridor", "--seed", "6", "--size",
+                                 "400x300", "--rate", "15", "--quiet", "--output", folder / name});
+    const ProgramRun made = run_sparsight(words);
+    ASSERT_EQ(made.exit_code, 0) << made.errors;
+  };
+  record("first.mcap", {"--duration", "16"});
+  record("second.mcap", {"--duration", "6", "--carry", "0:68"});
+  const ProgramRun first = run_sparsight({"replay", folder / "first.mcap", "--output",
+                                          folder / "first", "--save-map", folder / "map"});
+  ASSERT_EQ(first.exit_code, 0) << first.errors;
+  const ProgramRun second = run_sparsight(
+      {"replay", folder / "second.mcap", "--output", folder / "second", "--map", folder / "map"});
+  ASSERT_EQ(second.exit_code, 0) << second.errors;
+  EXPECT_THAT(second.output, ::testing::HasSubstr("goes on in the map"));
+  const std::size_t news = second.errors.find(": found: sub-map 0 lies in the earlier map");
+  ASSERT_NE(news, std::string::npos) << second.errors;
+  const std::size_t frame = second.errors.rfind("frame ", news);
+  EXPECT_LE(std::stoi(second.errors.substr(frame + 6)), 60) << "within four seconds";
+
+  // One path of both, moved onto the truth as a whole: what is in another frame would be metres
+  // off.
+  constexpr double kBetweenS = 1000.0;
+  const auto joined = [&](const fs::path& name, const fs::path& of_first,
+                          const fs::path& of_second) {
+    std::ofstream(folder / name) << text_of(of_first) << later(text_of(of_second), kBetweenS);
+  };
+  joined("both.tum", folder / "first" / "trajectory.tum", folder / "second" / "trajectory.tum");
+  joined("truth.tum", folder / "first.ground_truth.tum", folder / "second.ground_truth.tum");
+  const ProgramRun evaluation = run_sparsight(
+      {"evaluate", folder / "both.tum", "--ground-truth", folder / "truth.tum", "--json"});
+  ASSERT_EQ(evaluation.exit_code, 0) << evaluation.errors;
+  const json ate = json::parse(evaluation.output).at("ate");
+  EXPECT_LE(ate.at("rmse_m").get<double>(), 0.02);
+  EXPECT_LE(ate.at("max_m").get<double>(), 0.05);
 }
 
 }  // namespace

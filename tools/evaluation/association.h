@@ -9,6 +9,9 @@
 
 namespace sparsight {
 
+// Poses no further apart than this are of the same instant.
+inline constexpr std::chrono::nanoseconds kSimultaneous{20'000'000};
+
 struct IndexPair {
   std::size_t estimate = 0;
   std::size_t truth = 0;

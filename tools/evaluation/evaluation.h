@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "hal/result.h"
+#include "tools/evaluation/association.h"
 #include "tools/evaluation/kitti_error.h"
+#include "tools/evaluation/loop_evaluation.h"
 #include "tools/evaluation/revisit_error.h"
 #include "tools/evaluation/trajectory.h"
 
@@ -18,7 +20,7 @@ struct EvaluationOptions {
   SegmentOptions segments;
   std::size_t rpe_delta_frames = 1;
   RevisitOptions revisits;
-  std::chrono::nanoseconds max_time_difference{20'000'000};  // between poses taken as simultaneous
+  std::chrono::nanoseconds max_time_difference = kSimultaneous;
 };
 
 // Distance between true and estimated positions once the estimate is moved rigidly onto the truth.
@@ -47,6 +49,7 @@ struct Evaluation {
   AbsoluteError ate;
   std::optional<RelativeError> rpe;      // none: no two frames that far apart
   std::optional<RevisitError> revisits;  // none: not asked for
+  std::optional<LoopEvaluation> loops;   // likewise
   // Per evaluated frame, in the ground truth's world.
   std::vector<std::size_t> estimate_indices;
   std::vector<Eigen::Vector3d> truth_positions;

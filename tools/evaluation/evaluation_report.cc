@@ -55,6 +55,49 @@ Json revisits_json(const std::optional<RevisitError>& error) {
           {"passes", list}};
 }
 
+Json loops_json(const std::optional<LoopEvaluation>& evaluation) {
+  if (!evaluation) {
+    return nullptr;
+  }
+  const LoopError& loops = evaluation->loops;
+  return {{"standing", loops.loops},
+          {"false", loops.false_loops},
+          {"max_error_m", loops.max_error_m},
+          {"max_error_deg", loops.max_error_deg},
+          {"with_earlier_map", loops.with_earlier_map},
+          {"keyframes", loops.keyframes},
+          {"revisits", loops.revisits},
+          {"revisits_closed", loops.closed},
+          {"submaps", loops.submaps},
+          {"submaps_joined", loops.joined},
+          {"submaps_joined_falsely", loops.joined_falsely},
+          {"odometry_ate_rmse_m", number_or_null(evaluation->odometry_ate_m)},
+          {"ate_rmse_m", number_or_null(evaluation->ate_m)}};
+}
+
+void append_loops(std::string& text, const std::optional<LoopEvaluation>& evaluation) {
+  if (!evaluation) {
+    return;
+  }
+  const auto out = std::back_inserter(text);
+  const LoopError& loops = evaluation->loops;
+  fmt::format_to(out,
+                 "loops         {} stand, {} of them false   largest error {:.4f} m {:.3f} deg\n",
+                 loops.loops, loops.false_loops, loops.max_error_m, loops.max_error_deg);
+  if (loops.with_earlier_map > 0) {
+    fmt::format_to(out, "              {} more with an earlier map, not judged\n",
+                   loops.with_earlier_map);
+  }
+  fmt::format_to(out, "places        {} of {} keyframes pass one again, {} of them with a loop\n",
+                 loops.revisits, loops.keyframes, loops.closed);
+  fmt::format_to(out, "sub-maps      {}, {} joined to an earlier one, {} of them falsely\n",
+                 loops.submaps, loops.joined, loops.joined_falsely);
+  if (evaluation->odometry_ate_m && evaluation->ate_m) {
+    fmt::format_to(out, "ATE of parts  sub-maps of odometry {:.4f} m   what loops joined {:.4f}\n",
+                   *evaluation->odometry_ate_m, *evaluation->ate_m);
+  }
+}
+
 void append_revisits(std::string& text, const std::optional<RevisitError>& error) {
   if (!error || error->revisits.empty()) {
     return;
@@ -115,6 +158,7 @@ std::string evaluation_table(const Evaluation& evaluation, const EvaluatedFiles&
   fmt::format_to(out, "evaluated     {} of {} frames, {:.1f} m\n", evaluation.frames,
                  evaluation.truth_frames, evaluation.path_length_m);
   append_figures(text, evaluation);
+  append_loops(text, evaluation.loops);
   append_revisits(text, evaluation.revisits);
   append_means(text, evaluation.kitti.per_length, "length m");
   append_means(text, evaluation.kitti.per_speed, "speed m/s");
@@ -143,6 +187,7 @@ std::string evaluation_json(const Evaluation& evaluation, const EvaluatedFiles& 
                        {"max_m", ate.max_m}}},
                      {"rpe", rpe_json(evaluation.rpe)},
                      {"revisits", revisits_json(evaluation.revisits)},
+                     {"loops", loops_json(evaluation.loops)},
                      {"notes", evaluation.notes}};
   // A file name need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -8,6 +8,7 @@
 
 #include "slam/geometry/camera_model.h"
 #include "slam/loop/orb_features.h"
+#include "slam/loop/place_image.h"
 
 namespace sparsight {
 namespace {
@@ -94,7 +95,8 @@ Result<void> SessionMap::take_earlier(const LoopConfig& config, const CameraIntr
                                       const Vocabulary& vocabulary, PagedKeyframes& keyframes) {
   auto opened = open_map(*options_.earlier);
   if (!opened) return tl::unexpected(opened.error());
-  const CameraIntrinsics halved = CameraModel(camera).at_level(config.image_level).intrinsics();
+  const int level = place_image_level(config.image_level, camera.width);
+  const CameraIntrinsics halved = CameraModel(camera).at_level(level).intrinsics();
   if (auto checked = check_camera(*options_.earlier, opened->index.known, halved); !checked) {
     return checked;
   }

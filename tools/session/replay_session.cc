@@ -110,7 +110,9 @@ Result<void> run(FrameSource& source, const ReplayOptions& options, SessionMap& 
   const auto on_keyframe = [&](RetiredKeyframe&& keyframe) {
     recorder.add(keyframe);
     if (!loops) return;
-    for (const std::string& news : submap_news.of(*loops)) progress.say(news);
+    for (const std::string& news : submap_news.of(*loops)) {
+      progress.say(fmt::format("frame {}: {}", recorder.session().frames.back().sequence, news));
+    }
   };
 
   const InterruptRequest interrupt;

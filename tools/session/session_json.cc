@@ -80,6 +80,7 @@ Json json_of(const LoopStatistics& statistics) {
   for (const auto& [verdict, count] : statistics.verdicts) json[name_of(verdict)] = count;
   json["contradicted_by_graph"] = statistics.contradicted;
   json["submaps_joined"] = statistics.submaps_joined;
+  json["joins_revised"] = statistics.joins_revised;
   return json;
 }
 

@@ -8,7 +8,7 @@
 
 namespace sparsight {
 
-// What a person is told when sub-maps are joined. Thread-bound.
+// What a person is told when sub-maps are joined, and when that was wrong. Thread-bound.
 class SubmapNews {
  public:
   // Since the call before.
@@ -16,6 +16,7 @@ class SubmapNews {
 
  private:
   std::size_t joined_ = 0;
+  std::size_t revised_ = 0;
   std::vector<Submap> submaps_;  // as they were
 };
 

@@ -22,6 +22,7 @@ struct EvaluateArguments {
   std::size_t rpe_delta_frames = 1;
   std::size_t revisit_places = 0;
   double max_time_difference_s = 0.02;
+  bool loops = false;
   bool json = false;
 };
 
@@ -59,21 +60,28 @@ EvaluationOptions options_of(const EvaluateArguments& arguments) {
   return options;
 }
 
-int evaluate(const EvaluateArguments& arguments) {
+Result<std::string> report_of(const EvaluateArguments& arguments) {
   const auto pair = read_trajectories(files_of(arguments));
-  if (!pair) {
-    std::fprintf(stderr, "sparsight evaluate: %s\n", pair.error().message.c_str());
-    return 1;
-  }
-  const auto evaluation = evaluate_trajectories(pair->estimate, pair->truth, options_of(arguments));
-  if (!evaluation) {
-    std::fprintf(stderr, "sparsight evaluate: %s\n", evaluation.error().message.c_str());
-    return 1;
+  if (!pair) return tl::unexpected(pair.error());
+  auto evaluation = evaluate_trajectories(pair->estimate, pair->truth, options_of(arguments));
+  if (!evaluation) return tl::unexpected(evaluation.error());
+  if (arguments.loops) {
+    auto loops = evaluate_loops(arguments.estimate, pair->truth);
+    if (!loops) return tl::unexpected(loops.error());
+    evaluation->loops = *loops;
   }
   const EvaluatedFiles files{pair->estimate.source, pair->truth.source};
-  const std::string report =
-      arguments.json ? evaluation_json(*evaluation, files) : evaluation_table(*evaluation, files);
-  std::fputs(report.c_str(), stdout);
+  return arguments.json ? evaluation_json(*evaluation, files)
+                        : evaluation_table(*evaluation, files);
+}
+
+int evaluate(const EvaluateArguments& arguments) {
+  const auto report = report_of(arguments);
+  if (!report) {
+    std::fprintf(stderr, "sparsight evaluate: %s\n", report.error().message.c_str());
+    return 1;
+  }
+  std::fputs(report->c_str(), stdout);
   return 0;
 }
 
@@ -113,6 +121,9 @@ void add_evaluate(CLI::App& app, int& exit_code) {
           "Of N places along the first lap: how far later passes come apart from the first")
       ->type_name("N")
       ->check(CLI::Range(std::size_t{1}, std::size_t{10'000}));
+  command->add_flag("--loops", arguments->loops,
+                    "ESTIMATE is a session folder: which of its loops are false, and which places "
+                    "passed again it has not recognised");
   command
       ->add_option("--max-time-difference", arguments->max_time_difference_s,
                    "Seconds between poses that count as simultaneous")

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "slam/loop/integrated_depth.h"
 #include "slam/points/camera_returns.h"
@@ -190,6 +192,10 @@ class Jump : public ::testing::Test {
     return i < MadeWalk::kViews ? T : Eigen::Translation3d(90.0, 0.0, 3.0) * T;
   }
   void walk(bool lost, std::size_t views = 2 * MadeWalk::kViews) {
+    add(lost, views);
+    closer_.finish();
+  }
+  void add(bool lost, std::size_t views) {
     for (std::size_t i = 0; i < views; ++i) {
       RetiredKeyframe keyframe = made_walk().keyframe(i);
       keyframe.T_world_camera = odometry(i);
@@ -197,7 +203,6 @@ class Jump : public ::testing::Test {
       keyframe.begins_submap = lost && i == MadeWalk::kViews;
       closer_.add(keyframe, made_walk().camera().intrinsics());
     }
-    closer_.finish();
   }
 
   LoopCloser closer_;
@@ -218,6 +223,17 @@ TEST_F(Jump, WhereTrackingWasLostLoopsJoinWhatComesAfterToWhatWasBefore) {
         << i;
   }
   EXPECT_TRUE(poses.at(0).isApprox(made_walk().drifted(0), 1e-9)) << "the older stays";
+}
+
+TEST_F(Jump, WhereASubmapLiesIsKnownBeforeItsKeyframesHaveTheirSuccessors) {
+  add(true, MadeWalk::kViews + 3);
+  EXPECT_EQ(closer_.statistics().submaps_joined, 1);
+  EXPECT_TRUE(closer_.placed());
+  // When they have, those that are in loops are asked about again.
+  closer_.finish();
+  std::set<std::pair<std::uint64_t, std::uint64_t>> pairs;
+  for (const LoopClosure& loop : closer_.loops()) pairs.emplace(loop.current, loop.candidate);
+  EXPECT_EQ(pairs.size(), closer_.loops().size()) << "and in no loop twice";
 }
 
 TEST_F(Jump, WhatWasTrackedIsBelievedAgainstLoops) {

@@ -52,6 +52,33 @@ TEST(EvaluationReport, GivesNullForWhatCouldNotBeComputed) {
   EXPECT_EQ(json.at("notes").size(), 1U);
 }
 
+TEST(EvaluationReport, TellsOfLoopsWhereTheyWereJudged) {
+  Evaluation evaluation = stretched(51);
+  EXPECT_TRUE(nlohmann::json::parse(evaluation_json(evaluation, kFiles)).at("loops").is_null());
+  evaluation.loops = {.loops = {.loops = 40,
+                                .false_loops = 1,
+                                .max_error_m = 3.2,
+                                .keyframes = 90,
+                                .revisits = 30,
+                                .closed = 27,
+                                .submaps = 3,
+                                .joined = 2,
+                                .joined_falsely = 1},
+                      .odometry_ate_m = 0.05,
+                      .ate_m = 0.01};
+  const auto json = nlohmann::json::parse(evaluation_json(evaluation, kFiles)).at("loops");
+  EXPECT_EQ(json.at("standing"), 40);
+  EXPECT_EQ(json.at("false"), 1);
+  EXPECT_EQ(json.at("revisits_closed"), 27);
+  EXPECT_EQ(json.at("submaps_joined_falsely"), 1);
+  EXPECT_EQ(json.at("ate_rmse_m"), 0.01);
+  const std::string table = evaluation_table(evaluation, kFiles);
+  EXPECT_THAT(table, HasSubstr("40 stand, 1 of them false   largest error 3.2000 m"));
+  EXPECT_THAT(table, HasSubstr("30 of 90 keyframes pass one again, 27 of them with a loop"));
+  EXPECT_THAT(table, HasSubstr("3, 2 joined to an earlier one, 1 of them falsely"));
+  EXPECT_THAT(table, HasSubstr("sub-maps of odometry 0.0500 m   what loops joined 0.0100"));
+}
+
 TEST(EvaluationReport, SurvivesFileNamesThatAreNotUtf8) {
   const auto json = nlohmann::json::parse(evaluation_json(stretched(2), {"\xff.txt", "t"}));
   EXPECT_THAT(json.at("estimate").get<std::string>(), HasSubstr(".txt"));

@@ -87,6 +87,12 @@ TEST_F(EvaluateCommand, FailsWhenOneHasTimesAndTheOtherNot) {
   EXPECT_THAT(outcome.err, HasSubstr("--times"));
 }
 
+TEST_F(EvaluateCommand, LoopsAreASessions) {
+  const EvaluateOutcome outcome = run_evaluate(estimate_ + " --loops --ground-truth " + truth_);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("session.json: no such file"));
+}
+
 TEST_F(EvaluateCommand, RefusesUsageThatMakesNoSense) {
   const std::string files = estimate_ + " --ground-truth " + truth_;
   EXPECT_EQ(run_evaluate(estimate_).exit_code, 2);
