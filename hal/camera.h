@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -63,6 +64,8 @@ class Camera {
   virtual std::optional<CameraFrame> read(std::chrono::nanoseconds patience) = 0;
   virtual void stop() = 0;
   virtual DeviceState state() const = 0;
+  // The folder under /sys of the hardware that its data come by; "" where there is none.
+  virtual std::filesystem::path system_folder() const { return {}; }
   virtual CameraCounters counters() const = 0;
 };
 

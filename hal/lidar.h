@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -44,6 +45,8 @@ class Lidar {
   virtual std::optional<LidarMessage> read(std::chrono::nanoseconds patience) = 0;
   virtual void stop() = 0;
   virtual DeviceState state() const = 0;
+  // The folder under /sys of the hardware that its data come by; "" where there is none.
+  virtual std::filesystem::path system_folder() const { return {}; }
   virtual LidarCounters counters() const = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <filesystem>
 #include <system_error>
 
 #include "drivers/v4l2/frame_of_buffer.h"
@@ -66,6 +67,14 @@ std::optional<CameraFrame> V4l2Camera::read(nanoseconds patience) {
   waiting_.pop_front();
   ++counters_.frames;
   return frame;
+}
+
+// The path may be a link that names the camera by where it is plugged in.
+std::filesystem::path V4l2Camera::system_folder() const {
+  std::error_code error;
+  const auto node = std::filesystem::canonical(config_.device, error);
+  if (error) return {};
+  return "/sys/class/video4linux" / node.filename();
 }
 
 void V4l2Camera::advance(nanoseconds patience) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -26,6 +27,7 @@ class V4l2Camera final : public Camera {
   std::optional<CameraFrame> read(std::chrono::nanoseconds patience) override;
   void stop() override;
   DeviceState state() const override { return state_; }
+  std::filesystem::path system_folder() const override;
   CameraCounters counters() const override { return counters_; }
 
   // The memory of a frame that is no longer needed, for one to come. Thread-safe.

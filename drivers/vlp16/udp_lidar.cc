@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "drivers/vlp16/lidar_payload.h"
+#include "drivers/vlp16/network_interface.h"
 
 namespace sparsight {
 namespace {
@@ -66,6 +67,12 @@ void UdpLidar::stop() {
   pending_.clear();
   next_pending_ = 0;
   state_ = DeviceState::kStopped;
+}
+
+std::filesystem::path UdpLidar::system_folder() const {
+  const auto interface = sensor_ ? interface_towards(*sensor_) : std::nullopt;
+  if (!interface) return {};
+  return std::filesystem::path("/sys/class/net") / *interface;
 }
 
 std::optional<LidarMessage> UdpLidar::read(std::chrono::nanoseconds patience) {

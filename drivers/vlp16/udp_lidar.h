@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ class UdpLidar final : public Lidar {
   std::optional<LidarMessage> read(std::chrono::nanoseconds patience) override;
   void stop() override;
   DeviceState state() const override { return state_; }
+  // Of the network interface towards the sensor; not known where packets of all senders are taken.
+  std::filesystem::path system_folder() const override;
   LidarCounters counters() const override { return counters_; }
 
   // Where it listens while started: what was configured, or what was free.

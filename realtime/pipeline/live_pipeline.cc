@@ -20,9 +20,11 @@ namespace sparsight {
 namespace {
 
 // SCHED_FIFO, each above what it feeds (docs/architecture.md).
-constexpr int kInterruptPriority = 85;  // of the trigger lines
+constexpr int kTriggerInterruptPriority = 85;
 constexpr int kTriggerPriority = 80;
+constexpr int kLidarInterruptPriority = 75;
 constexpr int kLidarPriority = 70;
+constexpr int kCameraInterruptPriority = 67;
 constexpr int kCameraPriority = 65;
 constexpr int kSyncPriority = 60;
 constexpr int kTrackingPriority = 40;
@@ -57,9 +59,9 @@ struct LivePipeline::Parts {
       : config(given),
         outputs(std::move(given_outputs)),
         shared(config.frames_in_flight),
-        camera(stage_device(std::move(devices.camera)), kCameraEvents,
+        camera(fed_device(std::move(devices.camera), kCameraInterruptPriority), kCameraEvents,
                settings("camera", config, kCameraPriority), remarks),
-        lidar(stage_device(std::move(devices.lidar)), kLidarEvents,
+        lidar(fed_device(std::move(devices.lidar), kLidarInterruptPriority), kLidarEvents,
               settings("lidar", config, kLidarPriority), remarks),
         trigger(trigger_device(std::move(devices.trigger)), kTriggerEvents,
                 settings("trigger", config, kTriggerPriority), remarks),
@@ -89,10 +91,20 @@ struct LivePipeline::Parts {
 
   // Requesting a line has the kernel make a thread for its interrupt.
   DeviceStage::Device trigger_device(std::shared_ptr<TriggerLine> line) {
-    DeviceStage::Device device = stage_device(std::move(line));
+    return fed_by([] { return Interrupts{.names = {kTriggerInterrupt}}; },
+                  stage_device(std::move(line)), kTriggerInterruptPriority);
+  }
+  template <typename D>
+  DeviceStage::Device fed_device(std::shared_ptr<D> device, int priority) {
+    return fed_by([device] { return interrupts_behind(device->system_folder()); },
+                  stage_device(device), priority);
+  }
+  // Whenever it has begun to stream: it may have come back as another device.
+  DeviceStage::Device fed_by(std::function<Interrupts()> interrupts, DeviceStage::Device device,
+                             int priority) {
     if (!config.realtime) return device;
-    device.streams = [this] {
-      const auto refused = raise_interrupt_threads(kTriggerInterrupt, kInterruptPriority);
+    device.streams = [this, interrupts = std::move(interrupts), priority] {
+      const auto refused = raise_interrupt_threads(interrupts(), priority);
       if (refused) remarks.add(*refused);
     };
     return device;

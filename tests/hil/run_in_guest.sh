@@ -24,10 +24,11 @@ make_camera() {
   modprobe v4l2loopback devices=1 video_nr=10 card_label=rig exclusive_caps=0 max_buffers=8
 }
 
-make_lidar() {  # a network interface towards a sensor that has its own network
-  modprobe veth
+make_lidar() {  # a network card towards a sensor that has its own network, and another card
+  modprobe e1000e
   ip netns add sensor
-  ip link add lidar0 type veth peer name sensor0 netns sensor
+  ip link set eth0 name lidar0
+  ip link set eth1 netns sensor name sensor0
   ip address add 192.168.1.100/24 dev lidar0
   ip link set lidar0 up
   ip netns exec sensor ip address add 192.168.1.201/24 dev sensor0
@@ -60,10 +61,10 @@ hook() {  # when, scenario
   type "$function" >/dev/null 2>&1 && "$function"
 }
 
-# Of each thread of a process, and of the GPIO interrupts', a line: name, real-time priority,
+# Of each thread of a process, and of the interrupts', a line: name, real-time priority,
 # hundredths of a second that it ran as user and as kernel.
 threads() {
-  for thread in /proc/"$1"/task/* $(grep -l '^irq/.*-sparsi' /proc/[0-9]*/comm | sed 's,/comm$,,'); do
+  for thread in /proc/"$1"/task/* $(grep -l '^irq/' /proc/[0-9]*/comm | sed 's,/comm$,,'); do
     echo "$(cat "$thread/comm") $(sed 's/.*) //' "$thread/stat" | cut -d ' ' -f 38,12,13)"
   done
 }

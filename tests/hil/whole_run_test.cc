@@ -143,10 +143,14 @@ TEST_F(WholeRun, KeepsEveryDeadlineOnceItIsUnderWay) {
       median, latest, arrival);
 }
 
-TEST_F(WholeRun, RaisesTheInterruptsOfItsLines) {
+TEST_F(WholeRun, RaisesTheInterruptsOfItsLinesAndOfItsNetworkCard) {
   const std::string threads = text_of(run().folder / "threads.txt");
   EXPECT_THAT(threads, ::testing::ContainsRegex("irq/[0-9]+-sparsig[a-z]* [0-9]+ [0-9]+ 85"))
       << threads;
+  EXPECT_THAT(threads, ::testing::ContainsRegex("irq/[0-9]+-lidar[-a-z0-9]* [0-9]+ [0-9]+ 75"))
+      << threads;
+  EXPECT_THAT(threads, ::testing::ContainsRegex("irq/[0-9]+-senso[-a-z0-9]* [0-9]+ [0-9]+ 50"))
+      << "the sensor's own card is none of ours: " << threads;
   EXPECT_THAT(threads, ::testing::ContainsRegex("tracking [0-9]+ [0-9]+ 40")) << threads;
 }
 

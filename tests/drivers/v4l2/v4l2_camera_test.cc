@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "tests/drivers/v4l2/fake_video.h"
 
 namespace sparsight {
@@ -250,6 +253,20 @@ TEST_F(V4l2CameraTest, AnAbsentCameraSaysWhereToLook) {
   ASSERT_FALSE(started);
   EXPECT_EQ(started.error().code, ErrorCode::kNotFound);
   EXPECT_THAT(started.error().message, HasSubstr("ls /dev/v4l/by-id"));
+}
+
+// A link to what stands for the camera, as /dev/v4l/by-path has them.
+TEST(V4l2CameraSystemFolder, IsThatOfTheNodeBehindTheLink) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(::testing::TempDir()) / "v4l2_camera_system_folder";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  std::ofstream(folder / "video3") << "";
+  fs::create_symlink("video3", folder / "by-path");
+  testing::FakeVideo video;
+  EXPECT_EQ(V4l2Camera({.device = folder / "by-path"}, video).system_folder(),
+            "/sys/class/video4linux/video3");
+  EXPECT_EQ(V4l2Camera({.device = folder / "missing"}, video).system_folder(), "");
 }
 
 }  // namespace

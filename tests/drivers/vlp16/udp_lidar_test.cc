@@ -226,5 +226,16 @@ TEST_F(UdpLidarOnLoopback, CanBeStartedAgain) {
   EXPECT_TRUE(lidar.read(1s));
 }
 
+TEST_F(UdpLidarOnLoopback, NamesTheInterfaceTowardsTheSensor) {
+  UdpLidar lidar(loopback());
+  ASSERT_TRUE(lidar.start());
+  EXPECT_EQ(lidar.system_folder(), "/sys/class/net/lo");
+  LidarConfig anyone = loopback();
+  anyone.sensor_address = "";
+  UdpLidar of_anyone(anyone);
+  ASSERT_TRUE(of_anyone.start());
+  EXPECT_EQ(of_anyone.system_folder(), "");
+}
+
 }  // namespace
 }  // namespace sparsight

@@ -1,9 +1,18 @@
 #include "realtime/pipeline/live_pipeline.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
+#include <string>
 #include <thread>
 
 #include "realtime/pipeline/deterministic_replay.h"
@@ -167,6 +176,79 @@ TEST(LivePipeline, GoesOnWithoutASensorThatDoesNotStart) {
   EXPECT_EQ(live.status.lidar.message, "no network");
   EXPECT_EQ(live.recorded[0], live.walk.frames().size()) << "what comes is recorded";
   EXPECT_EQ(live.status.state, LiveState::kSynchronizing) << "and without depth nothing is tracked";
+}
+
+// A process that is called as the kernel calls the thread of an interrupt.
+class StandInInterrupt {
+ public:
+  explicit StandInInterrupt(int number) : name_("irq/" + std::to_string(number) + "-made") {
+    std::array<int, 2> named{};
+    if (pipe(named.data()) != 0) return;
+    pid_ = fork();
+    if (pid_ == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      prctl(PR_SET_NAME, name_.c_str());
+      close(named[0]);
+      close(named[1]);
+      for (;;) pause();
+    }
+    close(named[1]);
+    char nothing = 0;
+    while (read(named[0], &nothing, 1) > 0) continue;  // until the child has closed its end
+    close(named[0]);
+  }
+  ~StandInInterrupt() {
+    if (pid_ <= 0) return;
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  StandInInterrupt(const StandInInterrupt&) = delete;
+  StandInInterrupt& operator=(const StandInInterrupt&) = delete;
+
+  int priority() const {
+    sched_param parameters{};
+    const bool fifo = sched_getscheduler(pid_) == SCHED_FIFO;
+    return fifo && sched_getparam(pid_, &parameters) == 0 ? parameters.sched_priority : 0;
+  }
+
+ private:
+  std::string name_;
+  pid_t pid_ = -1;
+};
+
+// A device that hangs on a controller of that interrupt, as /sys has it.
+template <typename Played>
+struct OnController final : Played {
+  OnController(std::vector<RigEvent> events, int number)
+      : Played(std::move(events)),
+        folder(std::filesystem::path(::testing::TempDir()) / ("made_" + std::to_string(number))) {
+    std::filesystem::create_directories(folder / "made");
+    std::ofstream(folder / "irq") << number << "\n";
+  }
+  std::filesystem::path system_folder() const override { return folder / "made"; }
+
+  std::filesystem::path folder;
+};
+
+TEST(LivePipeline, RaisesTheInterruptsThatItsDevicesComeBy) {
+  const StandInInterrupt of_camera(4194301);
+  const StandInInterrupt of_lidar(4194302);
+  const StandInInterrupt of_another(4194303);
+  LiveWalk live(12);
+  live.config.realtime = true;
+  live.walk.begin_at(HostClock::now() + 50ms);
+  LiveDevices devices = played_devices(live.walk);
+  devices.camera = std::make_shared<OnController<PlayedCamera>>(live.walk.frames(), 4194301);
+  devices.lidar = std::make_shared<OnController<PlayedLidar>>(live.walk.packets(), 4194302);
+  LivePipeline pipeline(std::move(devices), live.walk.calibration(), live.odometry, {},
+                        live.outputs(), live.config);
+  pipeline.start();
+  std::this_thread::sleep_for(200ms);
+  pipeline.stop();
+  if (!pipeline.remarks().empty()) GTEST_SKIP() << "real-time scheduling is not for us";
+  EXPECT_GT(of_camera.priority(), 65) << "above the thread that takes its frames";
+  EXPECT_GT(of_lidar.priority(), 70);
+  EXPECT_EQ(of_another.priority(), 0);
 }
 
 }  // namespace

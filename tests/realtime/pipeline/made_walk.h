@@ -135,7 +135,7 @@ class PlayedDevice {
   std::size_t at_ = 0;
 };
 
-class PlayedCamera final : public Camera {
+class PlayedCamera : public Camera {
  public:
   explicit PlayedCamera(std::vector<RigEvent> events) : played_(std::move(events)) {}
   Result<void> start() override { return {}; }
@@ -152,7 +152,7 @@ class PlayedCamera final : public Camera {
   PlayedDevice played_;
 };
 
-class PlayedLidar final : public Lidar {
+class PlayedLidar : public Lidar {
  public:
   explicit PlayedLidar(std::vector<RigEvent> events) : played_(std::move(events)) {}
   Result<void> start() override { return {}; }
