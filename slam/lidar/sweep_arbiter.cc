@@ -12,6 +12,9 @@ namespace {
 // By the information, which takes every return for itself; the error is some five times as large.
 constexpr double kSureM = 0.01;
 constexpr double kSureRad = 0.1 * M_PI / 180.0;
+// The returns of a sweep are moved to the exposure by a velocity that is a frame old, and hands
+// that turn a rig as fast as this change it within one.
+constexpr double kFastTurnRadS = 0.5;
 // Returns that speak for each direction; a few planes at edges face where no wall does.
 constexpr double kFewestFacing = 15.0;
 
@@ -43,6 +46,7 @@ SweepArbiter::SweepArbiter(const Eigen::Isometry3d& T_camera_lidar)
 void SweepArbiter::hear(const Sweep& sweep, const Vector6d& twist, const SweepSurface& surface,
                         const Eigen::Isometry3d& T_keyframe_camera) {
   surface_ = &surface;
+  blurred_ = !sweep.motion_compensated && twist.head<3>().norm() > kFastTurnRadS;
   sample_sweep(sweep, adjoint(T_lidar_camera_) * twist, surface, in_lidar(T_keyframe_camera),
                sample_);
 }
@@ -56,7 +60,7 @@ SweepArbiter::Opinion SweepArbiter::opinion(const Eigen::Isometry3d& start) cons
   return {.T_keyframe_camera = T_camera_lidar_ * fit.T_keyframe_lidar * T_lidar_camera_,
           .share = fit.share,
 
-          .sure = is_sure(fit)};
+          .sure = !blurred_ && is_sure(fit)};
 }
 
 }  // namespace sparsight

@@ -40,6 +40,7 @@ class SweepArbiter {
   Eigen::Isometry3d T_camera_lidar_;
   Eigen::Isometry3d T_lidar_camera_;
   const SweepSurface* surface_ = nullptr;
+  bool blurred_ = false;
   std::vector<Eigen::Vector3f> sample_;
 };
 

@@ -1,5 +1,7 @@
 #include "slam/tracking/arbitrated_tracker.h"
 
+#include <algorithm>
+
 namespace sparsight {
 namespace {
 
@@ -10,6 +12,10 @@ constexpr double kAsKnown = 0.8;
 constexpr int kFramesOfTraffic = 10;
 constexpr double kBetter = 0.1;  // that much more on the surface is not chance
 constexpr double kMost = 0.5;    // less is no opinion
+// Of what lay on the surface, and of what was found, a frame before: traffic comes and goes, but a
+// rig that is carried off sees something else at once.
+constexpr double kSuddenly = 0.8;
+constexpr double kGradually = 0.3;
 constexpr double kAgreeM = 0.15;
 constexpr double kAgreeDeg = 1.0;
 constexpr double kHardly = 0.75;
@@ -38,7 +44,11 @@ TrackingResult ArbitratedTracker::track(const TrackingTarget& keyframe, const Im
   }
   arbiter_.hear(sweep, twist, keyframe.surface, start.T_keyframe_predicted);
   Attempt best = attempt(keyframe, image, start, start);
-  if (in_doubt(best) || best.share < kAsKnown) best = arbitrate(keyframe, image, start, best);
+  const bool beyond_doubt = best.settled && best.result.found_share >= kBeyondDoubt;
+  if (!beyond_doubt && (in_doubt(best) || best.share < kAsKnown)) {
+    best = arbitrate(keyframe, image, start, best);
+  }
+  share_before_ = best.share;
   if (best.result.vouched && best.result.found_share < kWellFound) {
     in_traffic_ = kFramesOfTraffic;
   } else if (in_traffic_ > 0) {
@@ -87,7 +97,8 @@ ArbitratedTracker::Attempt ArbitratedTracker::arbitrate(const TrackingTarget& ke
   const SweepArbiter::Opinion opinion = arbiter_.opinion(
       expected_better ? start.T_keyframe_predicted : first.result.T_keyframe_camera);
   const bool possible = start.in_doubt || tracker_.reachable(opinion.T_keyframe_camera, start);
-  const bool decides = opinion.sure && opinion.share > kMost && possible;
+  const bool as_before = opinion.share > std::max(kMost, kSuddenly * share_before_);
+  const bool decides = opinion.sure && as_before && possible;
 
   Attempt best = first;
   if (possible && (decides ? contradicts(opinion, first) : !first.settled)) {
@@ -101,9 +112,10 @@ ArbitratedTracker::Attempt ArbitratedTracker::arbitrate(const TrackingTarget& ke
     if (finds_more || (decides && !(alike && hardly))) best = there;
     best.result.attempts = 2;
   }
-  const bool vouched = decides && agree(opinion, best.result) &&
-                       best.result.status != TrackingResult::Status::kTooFewPoints &&
-                       best.result.found_share >= kSeenAtAll;
+  const bool vouched =
+      decides && agree(opinion, best.result) &&
+      best.result.status != TrackingResult::Status::kTooFewPoints &&
+      best.result.found_share >= std::max(kSeenAtAll, kGradually * start.found_share);
   if (!vouched) return best;
   if (!best.result.ok()) best.result.status = TrackingResult::Status::kConverged;
   best.result.vouched = true;

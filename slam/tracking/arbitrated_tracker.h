@@ -50,7 +50,8 @@ class ArbitratedTracker {
   bool searches_;
   Tracker tracker_;
   SweepArbiter arbiter_;
-  int in_traffic_ = 0;  // frames to come in which the image is not believed by itself
+  double share_before_ = 0.0;  // of the last frame
+  int in_traffic_ = 0;         // frames to come in which the image is not believed by itself
 };
 
 }  // namespace sparsight
