@@ -51,7 +51,9 @@ struct Contents {
     if (!sequence || frame->epoch != epoch) {
       ++camera_starts;
     } else {
-      sequence_gaps += frame->sequence - *sequence - 1;
+      // A camera may count a frame twice, or wrap around.
+      const auto step = static_cast<std::int32_t>(frame->sequence - *sequence);
+      if (step > 1) sequence_gaps += static_cast<std::uint64_t>(step) - 1;
     }
     sequence = frame->sequence;
     epoch = frame->epoch;

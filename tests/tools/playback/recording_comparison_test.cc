@@ -101,6 +101,14 @@ TEST(RecordingComparison, SeesWhatIsMissing) {
   EXPECT_EQ(result.exposures.matched, 9U);
 }
 
+TEST(RecordingComparison, OfANumberGivenTwiceNothingIsMissing) {
+  const RecordingComparison result = compared({.frame = [](CameraFrame& frame) {
+    if (frame.sequence == 3) frame.sequence = 2;
+    return true;
+  }});
+  EXPECT_LE(result.sequence_gaps, 1U);
+}
+
 TEST(RecordingComparison, SeesPacketsThatChangedPlaces) {
   const RecordingComparison result = compared({.packet = [](LidarPacket& packet) {
     auto& number = packet.payload[7];
