@@ -10,8 +10,9 @@ constexpr double kAsKnown = 0.8;
 // For so many frames after one that the image left in doubt, it leaves each of them so: between two
 // cars much may be found of one.
 constexpr int kFramesOfTraffic = 10;
-constexpr double kBetter = 0.1;  // that much more on the surface is not chance
-constexpr double kMost = 0.5;    // less is no opinion
+constexpr double kNearlyAll = 0.9;  // of the patches: no traffic and no wrong pose leaves so much
+constexpr double kBetter = 0.1;     // that much more on the surface is not chance
+constexpr double kMost = 0.5;       // less is no opinion
 // Of what lay on the surface, and of what was found, a frame before: traffic comes and goes, but a
 // rig that is carried off sees something else at once.
 constexpr double kSuddenly = 0.8;
@@ -44,7 +45,8 @@ TrackingResult ArbitratedTracker::track(const TrackingTarget& keyframe, const Im
   }
   arbiter_.hear(sweep, twist, keyframe.surface, start.T_keyframe_predicted);
   Attempt best = attempt(keyframe, image, start, start);
-  const bool beyond_doubt = best.settled && best.result.found_share >= kBeyondDoubt;
+  const bool beyond_doubt =
+      best.settled && best.result.found_share >= kNearlyAll && best.share >= kMost;
   if (!beyond_doubt && (in_doubt(best) || best.share < kAsKnown)) {
     best = arbitrate(keyframe, image, start, best);
   }

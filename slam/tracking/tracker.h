@@ -34,9 +34,6 @@ struct TrackerConfig {
 // Right poses find more than this share of the patches unless strangers fill half of the image.
 inline constexpr double kWellFound = 0.55;
 
-// No wrong minimum finds so much: on fast roads and in traffic they find up to 0.75.
-inline constexpr double kBeyondDoubt = 0.8;
-
 struct TrackingResult {
   enum class Status : std::uint8_t { kConverged, kIterationLimit, kTooFewPoints, kDiverged };
   Status status = Status::kTooFewPoints;
