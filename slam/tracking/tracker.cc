@@ -106,7 +106,7 @@ void Tracker::rehearse_search(const ImagePyramid& image) {
   if (levels == 0) return;
   const CameraIntrinsics& c = cameras_.front().intrinsics();
   const std::vector<SelectedPoint> wall(
-      kRankedPatches,
+      static_cast<std::size_t>(config_.min_points),
       {.p_camera = Eigen::Vector3f::UnitZ(), .pixel = Eigen::Vector2d(c.cx, c.cy).cast<float>()});
   TrackingTarget ahead{.mean_inverse_depth = 1.0};
   for (int level = 0; level < levels; ++level) {
