@@ -115,7 +115,7 @@ class Bins {
       for (int r = std::max(0, row + block.first_row); r <= last; ++r) {
         returns.add(around_[index(r, column)].*block.columns);
       }
-      const SweepSurface::Plane plane = plane_through(returns);
+      SweepSurface::Plane plane = plane_through(returns);
       if (!plane.normal.isZero()) return plane;
     }
     return {};

@@ -303,7 +303,7 @@ TrackingResult Tracker::search(const TrackingTarget& keyframe, const ImagePyrami
 
 TrackingResult Tracker::track(const TrackingTarget& keyframe, const ImagePyramid& image,
                               const TrackingStart& start) {
-  const TrackingResult result = direct(keyframe, image, start);
+  TrackingResult result = direct(keyframe, image, start);
   if (!config_.try_other_starts || settled(result, start)) return result;
   return search(keyframe, image, start, result);
 }
