@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <thread>
 
 namespace sparsight {
@@ -20,8 +21,9 @@ using ::testing::UnorderedElementsAre;
 
 const Interrupts kLines{.names = {"sparsight"}};
 
+// Of this test in this process: others may run beside it.
 fs::path fresh_folder(const char* name) {
-  const auto folder = fs::path(::testing::TempDir()) / name;
+  const auto folder = fs::path(::testing::TempDir()) / (name + std::to_string(getpid()));
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;
