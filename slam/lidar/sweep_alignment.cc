@@ -15,8 +15,10 @@ constexpr double kRangeNoise = 0.02;  // metres
 // least.
 constexpr double kFirstScale = 5.0;
 constexpr double kLeastScale = 0.5;
-constexpr double kNearM = 0.3;
-constexpr double kOnSurface = 3.0;
+// Farther from its plane a return says nothing: a metre at first, then less as the fit gets tight.
+constexpr double kGateM = 0.2;  // per unit of scale
+constexpr double kLeastGateM = 0.3;
+constexpr double kOnSurface = 3.0;  // sigma of range and plane
 constexpr std::size_t kFewest = 50;
 constexpr double kRotationEnds = 1e-5;     // radians
 constexpr double kTranslationEnds = 1e-4;  // metres
@@ -46,6 +48,7 @@ Equations linearize(const SweepSurface& surface, std::span<const Eigen::Vector3f
                     const Eigen::Isometry3d& T_keyframe_lidar, float largest, double scale) {
   const Eigen::Matrix3f R = T_keyframe_lidar.linear().cast<float>();
   const Eigen::Vector3f t = T_keyframe_lidar.translation().cast<float>();
+  const double gate = std::clamp(kGateM * scale, kLeastGateM, kGateM * kFirstScale);
   Equations sum;
   for (const Eigen::Vector3f& p : returns) {
     const Eigen::Vector3f q = R * p + t;
@@ -61,8 +64,8 @@ Equations linearize(const SweepSurface& surface, std::span<const Eigen::Vector3f
     const double area = std::min(p.squaredNorm(), largest) / largest;
     sum.area += area;
     ++sum.returns;
-    if (square < kOnSurface * kOnSurface) sum.on_surface += area;
-    const double gate = std::clamp(0.2 * scale, kNearM, 1.0);
+    const bool on_surface = square < kOnSurface * kOnSurface;
+    if (on_surface) sum.on_surface += area;
     if (std::abs(distance) > gate) continue;
     const double weight = area * (kStudentDof + 1.0) / (kStudentDof + square / (scale * scale));
     Vector6d J;
@@ -70,7 +73,7 @@ Equations linearize(const SweepSurface& surface, std::span<const Eigen::Vector3f
     sum.H.noalias() += weight / noise2 * J * J.transpose();
     sum.b += weight / noise2 * distance * J;
     sum.squares += weight * square;
-    if (square < kOnSurface * kOnSurface) {
+    if (on_surface) {
       const Eigen::Vector3d n = plane->normal.cast<double>();
       sum.facing.noalias() += n * n.transpose();
     }

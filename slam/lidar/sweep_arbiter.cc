@@ -59,7 +59,6 @@ SweepArbiter::Opinion SweepArbiter::opinion(const Eigen::Isometry3d& start) cons
   const SweepFit fit = align_sweep(*surface_, sample_, in_lidar(start));
   return {.T_keyframe_camera = T_camera_lidar_ * fit.T_keyframe_lidar * T_lidar_camera_,
           .share = fit.share,
-
           .sure = !blurred_ && is_sure(fit)};
 }
 

@@ -50,13 +50,14 @@ TrackingResult ArbitratedTracker::track(const TrackingTarget& keyframe, const Im
   if (!beyond_doubt && (in_doubt(best) || best.share < kAsKnown)) {
     best = arbitrate(keyframe, image, start, best);
   }
-  share_before_ = best.share;
+  const bool believed = best.settled || best.result.vouched;
+  if (believed) share_before_ = best.share;
   if (best.result.vouched && best.result.found_share < kWellFound) {
     in_traffic_ = kFramesOfTraffic;
   } else if (in_traffic_ > 0) {
     --in_traffic_;
   }
-  if (best.settled || best.result.vouched || !searches_) return best.result;
+  if (believed || !searches_) return best.result;
   return tracker_.search(keyframe, image, start, best.result);
 }
 
@@ -87,6 +88,8 @@ ArbitratedTracker::Attempt ArbitratedTracker::attempt_at(const SweepArbiter::Opi
   Attempt made = attempt(keyframe, image, there, start);
   if (decides && contradicts(opinion, made)) {
     made.result = tracker_.look(keyframe, image, opinion.T_keyframe_camera, start);
+    made.share = opinion.share;
+    made.settled = tracker_.settled(made.result, start);
   }
   return made;
 }

@@ -50,7 +50,7 @@ class ArbitratedTracker {
   bool searches_;
   Tracker tracker_;
   SweepArbiter arbiter_;
-  double share_before_ = 0.0;  // of the last frame
+  double share_before_ = 0.0;  // of the last frame that was believed
   int in_traffic_ = 0;         // frames to come in which the image is not believed by itself
 };
 
