@@ -101,16 +101,18 @@ ArbitratedTracker::Attempt ArbitratedTracker::arbitrate(const TrackingTarget& ke
   const bool expected_better = arbiter_.share(start.T_keyframe_predicted) > first.share;
   const SweepArbiter::Opinion opinion = arbiter_.opinion(
       expected_better ? start.T_keyframe_predicted : first.result.T_keyframe_camera);
-  const bool possible = start.in_doubt || tracker_.reachable(opinion.T_keyframe_camera, start);
+  // Only one who is sure may say that the velocity, too, was wrong.
+  const bool reachable = tracker_.reachable(opinion.T_keyframe_camera, start);
   const bool as_before = opinion.share > std::max(kMost, kSuddenly * share_before_);
-  const bool decides = opinion.sure && as_before && possible;
+  const bool decides = opinion.sure && as_before && (reachable || start.in_doubt);
 
   Attempt best = first;
-  if (possible && (decides ? contradicts(opinion, first) : !first.settled)) {
+  if (decides ? contradicts(opinion, first) : reachable && !first.settled) {
     const Attempt there = attempt_at(opinion, decides, keyframe, image, start);
     const double found = first.result.found_share;
-    const bool finds_more =
-        there.result.ok() >= first.result.ok() && there.result.found_share > found;
+    const bool finds_more = there.result.ok() >= first.result.ok() &&
+                            there.result.found_share > found &&
+                            tracker_.reachable(there.result.T_keyframe_camera, start);
     // Of two poses that lie on the surface nearly alike, one that the image hardly finds is wrong.
     const bool alike = first.settled && opinion.share <= first.share + kBetter;
     const bool hardly = there.result.found_share < kHardly * found;
