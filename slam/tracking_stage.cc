@@ -105,7 +105,6 @@ FrameOutcome TrackingStage::follow(const SynchronizedFrame& frame,
       .found_share = found_share_,
       .seconds_since_previous =
           velocity_confirmed_ ? motion_.seconds_since_last(frame.exposure) : std::nullopt,
-      .in_doubt = in_doubt_ >= kPatientFrames,
       .finest_level = finest_level,
       .search_budget = search_budget};
   if (!pyramid.empty()) {
@@ -121,7 +120,6 @@ FrameOutcome TrackingStage::follow(const SynchronizedFrame& frame,
     result.status = lost_ ? FrameOutcome::Status::kLost : FrameOutcome::Status::kPredicted;
     result.tracking.T_keyframe_camera = start.T_keyframe_predicted;
   }
-  in_doubt_ = result.tracking.well_found() ? 0 : in_doubt_ + 1;
   result.T_world_camera = keyframe.T_world_camera * result.tracking.T_keyframe_camera;
   result.becomes_keyframe = !frame.sweep.returns.empty() && !pyramid.empty() && !handed_over_ &&
                             wants_keyframe(frame, reference, result);

@@ -61,7 +61,6 @@ class TrackingStage {
   HostTime last_trusted_;       // its exposure, or the keyframe's if later
   bool lost_ = false;           // in question for too long
   std::uint32_t submap_ = 0;
-  int in_doubt_ = 0;  // frames in a row that were not well found
   // A frame was where the velocity had led to expect it; before, a wrong first step would have
   // every right one refused.
   bool velocity_confirmed_ = false;

@@ -101,13 +101,12 @@ ArbitratedTracker::Attempt ArbitratedTracker::arbitrate(const TrackingTarget& ke
   const bool expected_better = arbiter_.share(start.T_keyframe_predicted) > first.share;
   const SweepArbiter::Opinion opinion = arbiter_.opinion(
       expected_better ? start.T_keyframe_predicted : first.result.T_keyframe_camera);
-  // Only one who is sure may say that the velocity, too, was wrong.
   const bool reachable = tracker_.reachable(opinion.T_keyframe_camera, start);
   const bool as_before = opinion.share > std::max(kMost, kSuddenly * share_before_);
-  const bool decides = opinion.sure && as_before && (reachable || start.in_doubt);
+  const bool decides = opinion.sure && as_before && reachable;
 
   Attempt best = first;
-  if (decides ? contradicts(opinion, first) : reachable && !first.settled) {
+  if (reachable && (decides ? contradicts(opinion, first) : !first.settled)) {
     const Attempt there = attempt_at(opinion, decides, keyframe, image, start);
     const double found = first.result.found_share;
     const bool finds_more = there.result.ok() >= first.result.ok() &&

@@ -59,11 +59,9 @@ struct TrackingStart {
   Brightness brightness;
   double error_px = std::numeric_limits<double>::infinity();  // of the prediction, in the image
   double found_share = 0.0;                                   // of the last frame
-  // Time since the last tracked frame; nothing if its velocity is not known.
+  // Time since the last tracked frame; nothing if its velocity is not known, or has not been
+  // confirmed by a frame that was where it had led to expect it.
   std::optional<double> seconds_since_previous;
-  // Frames were in doubt for so long that their velocity is no ground to refuse what the LiDAR
-  // says.
-  bool in_doubt = false;
   // Where refinement ends: 0, or in want of time a coarser level. The pose is then known to that
   // level's pixels, and what is found is judged there.
   int finest_level = 0;
