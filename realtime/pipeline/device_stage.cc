@@ -16,13 +16,18 @@ constexpr int kRoundsToRetry = 10;  // of kDevicePatience
 
 void count(std::atomic<std::uint64_t>& counter) { counter.fetch_add(1, std::memory_order_relaxed); }
 
+std::uint64_t lost_by(const CameraCounters& counters) { return counters.lost; }
+std::uint64_t lost_by(const LidarCounters& counters) { return counters.dropped; }
+std::uint64_t lost_by(const TriggerCounters& counters) { return counters.repeated; }
+
 template <typename D, typename Read>
 DeviceStage::Device stage_device_of(std::shared_ptr<D> device, DeviceKind kind, Read read) {
   return {.kind = kind,
           .start = [device] { return device->start(); },
           .read = [device, read]() -> std::optional<RigEvent> { return read(*device); },
           .stop = [device] { device->stop(); },
-          .state = [device] { return device->state(); }};
+          .state = [device] { return device->state(); },
+          .lost = [device] { return lost_by(device->counters()); }};
 }
 
 }  // namespace
@@ -47,6 +52,7 @@ void DeviceStage::run() {
       continue;
     }
     if (const std::optional<RigEvent> event = device_.read()) put(*event);
+    if (device_.lost) lost_.store(device_.lost(), std::memory_order_relaxed);
     note(device_.state());
     if (state_ == DeviceState::kEnded) break;
   }
@@ -84,6 +90,7 @@ void DeviceStage::say(const std::string& message) {
 DeviceStatus DeviceStage::status() const {
   DeviceStatus status{.state = state_.load(),
                       .events = events_.load(std::memory_order_relaxed),
+                      .lost = lost_.load(std::memory_order_relaxed),
                       .not_synchronized = not_synchronized_.load(std::memory_order_relaxed),
                       .not_recorded = not_recorded_.load(std::memory_order_relaxed)};
   const std::lock_guard lock(mutex_);

@@ -20,6 +20,7 @@ namespace sparsight {
 struct DeviceStatus {
   DeviceState state = DeviceState::kStopped;
   std::uint64_t events = 0;
+  std::uint64_t lost = 0;              // by the device or the kernel, as far as they tell
   std::uint64_t not_synchronized = 0;  // dropped, as the synchronisation was behind
   std::uint64_t not_recorded = 0;      // dropped, as the recording was behind
   std::string message;                 // why it did not start
@@ -36,7 +37,8 @@ class DeviceStage {
     std::function<std::optional<RigEvent>()> read;  // waits a moment
     std::function<void()> stop;
     std::function<DeviceState()> state;
-    std::function<void()> streams = {};  // called, if given, whenever it has begun to stream
+    std::function<std::uint64_t()> lost = {};  // so far; none is told of where it is not given
+    std::function<void()> streams = {};        // called, if given, whenever it has begun to stream
   };
 
   DeviceStage(Device device, std::size_t queue_events, ThreadSettings settings,
@@ -64,6 +66,7 @@ class DeviceStage {
   SpscQueue<RigEvent> to_recorder_;
   std::atomic<DeviceState> state_{DeviceState::kStopped};
   std::atomic<std::uint64_t> events_{0};
+  std::atomic<std::uint64_t> lost_{0};
   std::atomic<std::uint64_t> not_synchronized_{0};
   std::atomic<std::uint64_t> not_recorded_{0};
   mutable std::mutex mutex_;  // guards the message

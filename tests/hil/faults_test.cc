@@ -45,7 +45,9 @@ TEST(CameraSilent, IsShownAndTrackedAcross) {
   EXPECT_LE(error_of(run.path).max_m, 0.05);
 }
 
-// The camera of this one is vivid's, whose pictures have nothing to do with the recording.
+// The camera of this one is vivid's, whose pictures have nothing to do with the recording. It is a
+// thread of ordinary priority that numbers a frame by the time at which it gets to run: half a
+// period late it leaves a number out, and woken early after that it gives one twice.
 TEST(CameraUnplugged, ComesBackAndNothingElseIsLost) {
   const GuestRun run = guest_run("camera-unplugged");
   EXPECT_TRUE(run.showed("/camera/state", "gone"));
@@ -53,7 +55,8 @@ TEST(CameraUnplugged, ComesBackAndNothingElseIsLost) {
   EXPECT_EQ(run.last().at("camera").at("state"), "streaming");
   EXPECT_EQ(run.recorded.camera_starts, 2U);
   EXPECT_GE(run.recorded.frames.out, run.last().at("camera").at("events"));
-  EXPECT_EQ(run.recorded.sequence_gaps, 0U);
+  EXPECT_EQ(run.recorded.sequence_gaps, run.last().at("camera").at("lost")) << "by us";
+  EXPECT_LE(run.recorded.sequence_gaps, 5U) << "of some 240, by the camera";
   expect_all_packets(run);
   expect_all_edges(run);
   EXPECT_EQ(run.session.at("complete"), true);

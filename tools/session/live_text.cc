@@ -31,6 +31,7 @@ Json json_of(const LatencySnapshot& latency) {
 Json json_of(const DeviceStatus& device) {
   Json json = {{"state", name_of(device.state)},
                {"events", device.events},
+               {"lost", device.lost},
                {"not_synchronized", device.not_synchronized},
                {"not_recorded", device.not_recorded}};
   if (!device.message.empty()) json["message"] = device.message;

@@ -33,7 +33,8 @@ struct ScriptedDevice {
               return Edge{EdgeLine::kExposure, true, HostTime(std::chrono::seconds(at))};
             },
             .stop = [] {},
-            .state = [this] { return state; }};
+            .state = [this] { return state; },
+            .lost = [this] { return at / 2; }};
   }
 };
 
@@ -68,6 +69,7 @@ TEST(DeviceStage, TellsOfASensorThatGoesAndComesBackAndLosesNothingElse) {
   EXPECT_EQ(states, (std::vector{kStreaming, kSilent, kGone, kStreaming}));
   EXPECT_EQ(all_of(stage.to_sync()).size(), events.size());
   EXPECT_EQ(stage.status().events, 3U);
+  EXPECT_EQ(stage.status().lost, 3U) << "as the device says, half of what it was asked for";
 }
 
 TEST(DeviceStage, CountsForEachSideWhatItHadNoRoomFor) {
