@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "slam/geometry/arctangent.h"
+
 namespace sparsight {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr double kBeyondRad = 1.5 * M_PI / 180.0;
 }  // namespace
 
 float elevation_rad(const Eigen::Vector3f& p_lidar) {
-  return std::atan2(p_lidar.z(), std::sqrt(p_lidar.x() * p_lidar.x() + p_lidar.y() * p_lidar.y()));
+  return arctangent(p_lidar.z(), p_lidar.head<2>().norm());
 }
 
 SweepRows::SweepRows(std::span<const SweepPoint> points) {

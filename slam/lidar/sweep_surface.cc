@@ -1,11 +1,12 @@
 #include "slam/lidar/sweep_surface.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
+#include "slam/geometry/arctangent.h"
+#include "slam/lidar/plane_fit.h"
 #include "slam/lidar/sweep_rows.h"
 #include "slam/points/sweep_motion.h"
 
@@ -21,68 +22,36 @@ constexpr double kWidthOfThickness = 3.0;  // a plane is wider than it is thick,
 constexpr double kLeastThickness = 0.02;
 
 std::size_t column_of(const Eigen::Vector3f& p) {
-  const float turn = std::atan2(p.y(), p.x()) * static_cast<float>(0.5 / M_PI) + 0.5F;
+  const float turn = arctangent(p.y(), p.x()) * static_cast<float>(0.5 / M_PI) + 0.5F;
   return std::min<std::size_t>(kColumns - 1, static_cast<std::size_t>(turn * kColumns));
 }
 
-struct Moments {
-  double n = 0.0;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-
-  void add(const Eigen::Vector3d& p) {
-    n += 1.0;
-    sum += p;
-    squares.noalias() += p * p.transpose();
-  }
-  void add(const Moments& other) {
-    n += other.n;
-    sum += other.sum;
-    squares += other.squares;
-  }
-};
-
-// A lower bound of the smallest eigenvalue: the determinant by the sum of the principal minors.
-double least_variance(const Eigen::Matrix3d& c) {
-  const double minors = c(0, 0) * c(1, 1) - c(0, 1) * c(0, 1) + c(0, 0) * c(2, 2) -
-                        c(0, 2) * c(0, 2) + c(1, 1) * c(2, 2) - c(1, 2) * c(1, 2);
-  return minors > 0.0 ? c.determinant() / minors : 0.0;
-}
-
 // The plane of returns; no normal if they do not lie on one.
-SweepSurface::Plane plane_through(const Moments& returns) {
-  if (returns.n < kFewestReturns) return {};
-  const Eigen::Vector3d mean = returns.sum / returns.n;
-  const Eigen::Matrix3d covariance = returns.squares / returns.n - mean * mean.transpose();
+SweepSurface::Plane plane_through(const PointMoments& returns) {
+  if (returns.count() < kFewestReturns) return {};
+  const Eigen::Matrix3d covariance = returns.covariance();
   if (least_variance(covariance) > kThickest * kThickest) return {};
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal;
-  principal.computeDirect(covariance);
-  const Eigen::Vector3d extent = principal.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  if (extent.x() > kThickest) return {};
-  if (extent.y() < kWidthOfThickness * std::max(extent.x(), kLeastThickness)) return {};
-  return {.centre = mean.cast<float>(),
-          .normal = principal.eigenvectors().col(0).cast<float>(),
-          .thickness_m = static_cast<float>(extent.x()),
-          .reach_m = static_cast<float>(2.0 * extent.z())};
+  const PlaneAxes axes = plane_axes(covariance);
+  const double thickness = axes.extent.x();
+  if (thickness > kThickest) return {};
+  if (axes.extent.y() < kWidthOfThickness * std::max(thickness, kLeastThickness)) return {};
+  return {.centre = returns.mean().cast<float>(),
+          .normal = axes.normal.cast<float>(),
+          .thickness_m = static_cast<float>(thickness),
+          .reach_m = static_cast<float>(2.0 * axes.extent.z())};
 }
-
-// The returns of a bin and of those beside it in its row.
-struct Neighbourhood {
-  Moments both_sides, left, right;
-};
 
 // Rows and columns around a bin: all, or at an edge of what is there one side of it, or a corner.
 struct Block {
-  int first_row, last_row;
-  Moments Neighbourhood::*columns;
+  int first_row, last_row, first_column, last_column;
 };
-constexpr std::array<Block, 7> kBlocks{{{-1, 1, &Neighbourhood::both_sides},
-                                        {-1, 0, &Neighbourhood::both_sides},
-                                        {0, 1, &Neighbourhood::both_sides},
-                                        {-1, 0, &Neighbourhood::left},
-                                        {-1, 0, &Neighbourhood::right},
-                                        {0, 1, &Neighbourhood::left},
-                                        {0, 1, &Neighbourhood::right}}};
+constexpr std::array<Block, 7> kBlocks{{{-1, 1, -1, 1},
+                                        {-1, 0, -1, 1},
+                                        {0, 1, -1, 1},
+                                        {-1, 0, -1, 0},
+                                        {-1, 0, 0, 1},
+                                        {0, 1, -1, 0},
+                                        {0, 1, 0, 1}}};
 
 class Bins {
  public:
@@ -90,45 +59,39 @@ class Bins {
       : rows_(rows.count()), bins_(static_cast<std::size_t>(rows_) * kColumns) {
     for (const SweepPoint& point : points) {
       const auto row = static_cast<std::size_t>(rows.of_ring(point.ring));
-      bins_[row * kColumns + column_of(point.p_lidar)].add(point.p_lidar.cast<double>());
-    }
-    around_.resize(bins_.size());
-    for (std::size_t i = 0; i < bins_.size(); ++i) {
-      const std::size_t column = i % kColumns;
-      const Moments& before = bins_[column == 0 ? i + kColumns - 1 : i - 1];
-      const Moments& after = bins_[column == kColumns - 1 ? i + 1 - kColumns : i + 1];
-      Neighbourhood& around = around_[i];
-      around.left = bins_[i];
-      around.left.add(before);
-      around.right = bins_[i];
-      around.right.add(after);
-      around.both_sides = around.left;
-      around.both_sides.add(after);
+      bins_[row * kColumns + column_of(point.p_lidar)].add(point.p_lidar);
     }
   }
 
   SweepSurface::Plane plane(int row, int column) const {
-    if (bins_[index(row, column)].n == 0.0) return {};
+    if (bins_[index(row, column)].count() == 0.0) return {};
     for (const Block& block : kBlocks) {
-      Moments returns;
-      const int last = std::min(rows_ - 1, row + block.last_row);
-      for (int r = std::max(0, row + block.first_row); r <= last; ++r) {
-        returns.add(around_[index(r, column)].*block.columns);
-      }
-      SweepSurface::Plane plane = plane_through(returns);
+      const SweepSurface::Plane plane = plane_through(moments(block, row, column));
       if (!plane.normal.isZero()) return plane;
     }
     return {};
   }
 
  private:
+  // A row goes all around.
   static std::size_t index(int row, int column) {
-    return static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column);
+    const int around = (column + kColumns) % kColumns;
+    return static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(around);
+  }
+
+  PointMoments moments(const Block& block, int row, int column) const {
+    PointMoments sum;
+    const int last = std::min(rows_ - 1, row + block.last_row);
+    for (int r = std::max(0, row + block.first_row); r <= last; ++r) {
+      for (int c = column + block.first_column; c <= column + block.last_column; ++c) {
+        sum.add(bins_[index(r, c)]);
+      }
+    }
+    return sum;
   }
 
   int rows_;
-  std::vector<Moments> bins_;
-  std::vector<Neighbourhood> around_;
+  std::vector<PointMoments> bins_;
 };
 
 }  // namespace
