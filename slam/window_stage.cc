@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "slam/lidar/rough_points.h"
 #include "slam/points/camera_returns.h"
 #include "slam/points/visibility.h"
 #include "slam/tracking/patch_texture.h"
@@ -11,6 +12,14 @@
 
 namespace sparsight {
 namespace {
+
+// While less is found of what a frame should show, strangers may fill it.
+constexpr double kCalmShare = 0.8;
+
+bool calm(const FrameOutcome& outcome) {
+  if (outcome.status != FrameOutcome::Status::kTracked) return true;
+  return outcome.tracking.found_share >= kCalmShare && !outcome.tracking.vouched;
+}
 
 CloudPoint colored(const CameraReturn& r, const SynchronizedFrame& frame) {
   CloudPoint point{.p_camera = r.p_camera, .intensity = r.intensity};
@@ -111,8 +120,15 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
   keyframe->T_world_camera = pose_of(tracked);
   keyframe->begins_submap = tracked.outcome.status == FrameOutcome::Status::kLost;
   keyframe->pyramid = tracked.pyramid;
+  const bool weighs_rough = config_.photometry.weigh_down_rough;
+  if (weighs_rough || config_.tracker.sweep_arbiter) {
+    keyframe->surface = surface_of(frame.sweep, calibration_.T_camera_lidar, motion_around);
+  }
   keyframe->points = select_points(returns, frame.grey, camera_, config_.points);
   keyframe->mean_inverse_depth = mean_inverse_depth(keyframe->points);
+  if (weighs_rough && calm(tracked.outcome)) {
+    weigh_down_rough(keyframe->points, keyframe->surface, calibration_.T_camera_lidar);
+  }
   if (config_.photometry.weigh_down_strangers && window_.size() > 0 &&
       tracked.outcome.status == FrameOutcome::Status::kTracked &&
       window_.latest().sequence == tracked.outcome.keyframe_sequence) {
@@ -122,9 +138,6 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
   }
   for (int level = 0; level < tracked.pyramid.levels(); ++level) {
     keyframe->patches.push_back(patches_of(*keyframe, level));
-  }
-  if (config_.tracker.sweep_arbiter) {
-    keyframe->surface = surface_of(frame.sweep, calibration_.T_camera_lidar, motion_around);
   }
   keyframe->cloud_camera = colored(returns, camera_, frame);
   return keyframe;
@@ -160,7 +173,9 @@ void WindowStage::describe(TrackingReference& out) {
   out.camera = camera_;
   out.keyframes = window_.size();
   out.submap = submap_;
-  if (window_.size() > 0) out.keyframe = window_.latest();
+  if (window_.size() == 0) return;
+  out.keyframe = window_.latest();
+  count_rough_fully(window_.latest().points, out.keyframe.patches);
 }
 
 std::vector<RetiredKeyframe> WindowStage::take_retired() { return std::exchange(retired_, {}); }

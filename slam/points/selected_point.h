@@ -12,6 +12,7 @@ struct SelectedPoint {
   // exactly affine in inverse depth. Zero where the neighbourhood does not tell.
   Eigen::Vector2f inverse_depth_slope = Eigen::Vector2f::Zero();
   float weight = 1.0F;  // of its patch's residuals
+  bool rough = false;  // on no plane; then that is its weight in the window, in tracking it is more
 };
 
 }  // namespace sparsight

@@ -13,6 +13,9 @@ struct PhotometryConfig {
   bool affine_brightness = false;
   // A patch that disagrees as a whole (a moving car, a reflection) loses weight as a whole.
   bool patch_weights = false;
+  // In the window, points whose surroundings are no plane lose weight: a patch there has no one
+  // depth.
+  bool weigh_down_rough = false;
   // What the keyframe before does not show loses weight from the start, in a new keyframe.
   bool weigh_down_strangers = false;
 };

@@ -21,7 +21,7 @@ void weigh_down_strangers(std::vector<SelectedPoint>& points, const PatchSet& pa
   linearize(patches, earlier, camera, T_earlier_keyframe, same, linearization);
   for (const std::size_t stranger :
        missing_patches(patches, linearization, same, in_traffic ? kFoundCorrelation : kMissing)) {
-    points[stranger].weight = kStrangersWeight;
+    points[stranger].weight *= kStrangersWeight;
   }
 }
 

@@ -17,7 +17,7 @@ struct TrackingTarget {
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
   std::vector<PatchSet> patches;    // per pyramid level
   double mean_inverse_depth = 0.0;  // 1/m, of the points
-  SweepSurface surface;             // empty: nobody asks the LiDAR
+  SweepSurface surface;             // empty: nobody asks for it
 };
 
 }  // namespace sparsight

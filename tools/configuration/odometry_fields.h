@@ -27,6 +27,7 @@ void visit_fields(Visitor& profile, PhotometryConfig& photometry) {
   profile.field("affine_brightness", photometry.affine_brightness);
   profile.field("patch_weights", photometry.patch_weights);
   profile.field("weigh_down_strangers", photometry.weigh_down_strangers);
+  profile.field("weigh_down_rough", photometry.weigh_down_rough);
 }
 
 template <typename Visitor>
