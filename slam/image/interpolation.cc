@@ -22,4 +22,15 @@ ImageSample sample(const GreyImage& image, float u, float v) {
           .dv = 0.5F * blend(row[2] - row[0], row[3] - row[1])};
 }
 
+float sample_value(const GreyImage& image, float u, float v) {
+  const int u0 = static_cast<int>(u);
+  const int v0 = static_cast<int>(v);
+  const float a = u - static_cast<float>(u0);
+  const float b = v - static_cast<float>(v0);
+  const auto pixel = [&](int i, int j) { return static_cast<float>(image.at(u0 + i, v0 + j)); };
+  const float upper = pixel(0, 0) + a * (pixel(1, 0) - pixel(0, 0));
+  const float lower = pixel(0, 1) + a * (pixel(1, 1) - pixel(0, 1));
+  return upper + b * (lower - upper);
+}
+
 }  // namespace sparsight

@@ -15,10 +15,17 @@ struct Entry {
   float weight = 0.0F;
 };
 
-float gradient_weight(const ImageSample& s, double constant) {
-  if (constant <= 0.0) return 1.0F;
-  const auto c2 = static_cast<float>(constant * constant);
-  return c2 / (c2 + s.du * s.du + s.dv * s.dv);
+// Grey value, and the weight of its gradient.
+void look(const GreyImage& image, float u, float v, double gradient_weight_constant, Entry& entry) {
+  if (gradient_weight_constant <= 0.0) {
+    entry.intensity = sample_value(image, u, v);
+    entry.weight = 1.0F;
+    return;
+  }
+  const ImageSample s = sample(image, u, v);
+  const auto c2 = static_cast<float>(gradient_weight_constant * gradient_weight_constant);
+  entry.intensity = s.value;
+  entry.weight = c2 / (c2 + s.du * s.du + s.dv * s.dv);
 }
 
 // Of entries that count for nothing.
@@ -80,12 +87,11 @@ Entry entry_at(const GreyImage& image, const CameraModel& camera, const Selected
   const auto u = static_cast<float>(pixel.x());
   const auto v = static_cast<float>(pixel.y());
   if (!(inverse_depth > 0.0F) || !can_sample(image.width, image.height, u, v)) return entry;
-  const ImageSample s = sample(image, u, v);
   const std::optional<Eigen::Vector2d> ray = ray_beside(centre, camera, offset);
   if (!ray) return entry;
   entry.p_camera = ray->homogeneous().cast<float>() / inverse_depth;
-  entry.intensity = s.value;
-  entry.weight = point.weight * gradient_weight(s, gradient_weight_constant);
+  look(image, u, v, gradient_weight_constant, entry);
+  entry.weight *= point.weight;
   return entry;
 }
 

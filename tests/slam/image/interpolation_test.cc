@@ -19,6 +19,7 @@ RC_GTEST_PROP(Interpolation, IsExactOnAffineImages, ()) {
   const auto v = static_cast<float>(any_between(1.0, 27.99));
   const ImageSample s = sample(image, u, v);
   RC_ASSERT(std::abs(s.value - (10.0F + 3.0F * u + 4.0F * v)) < 1e-4F);
+  RC_ASSERT(sample_value(image, u, v) == s.value);
   RC_ASSERT(std::abs(s.du - 3.0F) < 1e-4F);
   RC_ASSERT(std::abs(s.dv - 4.0F) < 1e-4F);
 }
@@ -30,6 +31,7 @@ RC_GTEST_PROP(Interpolation, IsExactOnATwistedSurface, ()) {
   const auto v = static_cast<float>(any_between(1.0, 13.99));
   const ImageSample s = sample(image, u, v);
   RC_ASSERT(std::abs(s.value - u * v) < 1e-4F);
+  RC_ASSERT(sample_value(image, u, v) == s.value);
   RC_ASSERT(std::abs(s.du - v) < 1e-4F);
   RC_ASSERT(std::abs(s.dv - u) < 1e-4F);
 }
