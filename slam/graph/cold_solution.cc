@@ -13,6 +13,7 @@ constexpr double kPhiStep = 0.25;
 constexpr int kIterationsPerStep = 5;
 constexpr int kGlimpse = 20;
 constexpr double kGlimpseTolerance = 1e-3;
+constexpr double kWorthATry = 5.0;  // of the chi^2 that no true loop reaches
 
 PoseGraph without(const PoseGraph& graph, const std::vector<std::size_t>& edges) {
   PoseGraph result = graph;
@@ -46,9 +47,8 @@ class ColdSolver {
       taken_out = contradicted_loops(best);
       best = without(best, taken_out);
     }
-    GraphOptimizerConfig to_the_end = config_;
-    to_the_end.dcs_phi = 0.0;
-    const GraphSummary last = descend(best, to_the_end);
+    GraphSummary last = to_the_end(best);
+    take_back(best, taken_out, last);
     return {.graph = std::move(best),
             .taken_out = std::move(taken_out),
             .initial_cost = graph_cost(given_, 0.0),
@@ -58,6 +58,30 @@ class ColdSolver {
   }
 
  private:
+  GraphSummary to_the_end(PoseGraph& graph) {
+    GraphOptimizerConfig least_squares = config_;
+    least_squares.dcs_phi = 0.0;
+    return descend(graph, least_squares);
+  }
+
+  // Beside false loops a true one may have looked contradicted, and then the poses gave way.
+  void take_back(PoseGraph& best, std::vector<std::size_t>& taken_out, GraphSummary& last) {
+    const double impossible = impossible_chi2(best);
+    for (const std::size_t candidate : std::vector(taken_out)) {
+      if (edge_chi2(best, given_.edges[candidate]) > kWorthATry * impossible) continue;
+      std::vector<std::size_t> others = taken_out;
+      std::erase(others, candidate);
+      PoseGraph with = given_;
+      with.T_world_node = best.T_world_node;
+      with = without(with, others);
+      const GraphSummary tried = to_the_end(with);
+      if (tried.final_cost - last.final_cost > impossible) continue;
+      best = std::move(with);
+      taken_out = std::move(others);
+      last = tried;
+    }
+  }
+
   GraphSummary descend(PoseGraph& graph, const GraphOptimizerConfig& config) {
     const GraphSummary summary = optimize(graph, config);
     iterations_ += summary.iterations;

@@ -19,8 +19,8 @@ struct ColdSolution {
 // Solves a graph whose poses may be far from right and whose loops may be wrong. Plain least
 // squares from the poses given and from chordal_start(); if the better of the two contradicts some
 // loops, Dynamic Covariance Scaling whose Phi comes down step by step, the contradicted ones are
-// taken out, and least squares again over what is left. A graph without false loops thus gets its
-// least-squares optimum exactly.
+// taken out, and least squares again over what is left; a loop that then costs no more than a true
+// one may comes back. A graph without false loops thus gets its least-squares optimum exactly.
 ColdSolution solve_from_cold(const PoseGraph& graph, const GraphOptimizerConfig& config);
 
 }  // namespace sparsight

@@ -187,26 +187,28 @@ double graph_cost(const PoseGraph& graph, double dcs_phi) {
   return cost;
 }
 
-std::vector<std::size_t> contradicted_loops(const PoseGraph& graph) {
+double impossible_chi2(const PoseGraph& graph) {
   // Of chi^2 with six degrees of freedom: the median, and what one in 100,000 exceeds.
   constexpr double kMedian = 5.348;
   constexpr double kNever = 33.1;
+  // Where a few loops are all there is, they may not judge themselves.
+  constexpr std::size_t kEnoughToJudge = 10;
   std::vector<double> chi2;
   for (const PoseEdge& edge : graph.edges) {
     if (edge.loop) chi2.push_back(edge_chi2(graph, edge));
   }
-  if (chi2.empty()) return {};
-  std::vector<double> ordered = chi2;
-  const auto middle = ordered.begin() + static_cast<std::ptrdiff_t>(ordered.size() / 2);
-  std::ranges::nth_element(ordered, middle);
-  // Where a few loops are all there is, they may not judge themselves.
-  constexpr std::size_t kEnoughToJudge = 10;
-  const double scale = ordered.size() < kEnoughToJudge ? 1.0 : std::max(1.0, *middle / kMedian);
+  if (chi2.size() < kEnoughToJudge) return kNever;
+  const auto middle = chi2.begin() + static_cast<std::ptrdiff_t>(chi2.size() / 2);
+  std::ranges::nth_element(chi2, middle);
+  return kNever * std::max(1.0, *middle / kMedian);
+}
 
+std::vector<std::size_t> contradicted_loops(const PoseGraph& graph) {
+  const double impossible = impossible_chi2(graph);
   std::vector<std::size_t> contradicted;
-  std::size_t loop = 0;
   for (std::size_t i = 0; i < graph.edges.size(); ++i) {
-    if (graph.edges[i].loop && chi2[loop++] > kNever * scale) contradicted.push_back(i);
+    const PoseEdge& edge = graph.edges[i];
+    if (edge.loop && edge_chi2(graph, edge) > impossible) contradicted.push_back(i);
   }
   return contradicted;
 }

@@ -28,8 +28,10 @@ GraphSummary optimize(PoseGraph& graph, const GraphOptimizerConfig& config);
 // The cost that optimize() descends.
 double graph_cost(const PoseGraph& graph, double dcs_phi);
 
-// Loops that the rest of an optimised graph contradicts: edges whose chi^2 no true loop reaches, as
-// measured by the median of all loops where that is larger than it should be. Indices, ascending.
+// The chi^2 that no true loop of an optimised graph reaches, as measured by the median of all loops
+// where that is larger than it should be.
+double impossible_chi2(const PoseGraph& graph);
+// Loops that the rest of an optimised graph contradicts: edges beyond it. Indices, ascending.
 std::vector<std::size_t> contradicted_loops(const PoseGraph& graph);
 
 }  // namespace sparsight

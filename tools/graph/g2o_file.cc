@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "tools/evaluation/number_lines.h"
 
@@ -179,7 +180,8 @@ class G2oParser {
     edge.information = left_information(of_file, edge.T_from_to);
     const std::int64_t from = file_.ids[edge.from];
     const std::int64_t to = file_.ids[edge.to];
-    edge.loop = std::max(from, to) - std::min(from, to) != 1;
+    const auto [first, second] = std::minmax(from, to);
+    edge.loop = second - first != 1 || !steps_.insert(first).second;
     file_.graph.edges.push_back(edge);
     file_.edge_fields.push_back(fmt::format("{}", fmt::join(line.fields, " ")));
     return true;
@@ -197,6 +199,7 @@ class G2oParser {
   const std::string& source_;
   G2oGraph file_;
   std::unordered_map<std::int64_t, std::size_t> node_of_id_;
+  std::unordered_set<std::int64_t> steps_;  // ids from which an edge to the next was read
   std::optional<Error> error_;
 };
 

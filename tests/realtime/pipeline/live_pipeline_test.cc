@@ -108,7 +108,8 @@ TEST(LivePipeline, TracksWhatItsDevicesDeliverAsTheReplayWould) {
   const auto replayed = replay_deterministic(source, odometry, std::nullopt, {}).odometry;
   ASSERT_EQ(live.trajectory.size(), replayed.size());
   for (std::size_t i = 1 + untracked; i < replayed.size(); ++i) {
-    EXPECT_EQ(live.trajectory[i].exposure, replayed[i].exposure);
+    // Of an edge that comes later than its frame it is known where it must be, to nanoseconds.
+    EXPECT_LT(std::chrono::abs(live.trajectory[i].exposure - replayed[i].exposure), 1us);
     EXPECT_LT(shift_between(live.trajectory[i].T_world_camera, replayed[i].T_world_camera), 0.01);
   }
 }

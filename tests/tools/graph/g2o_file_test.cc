@@ -1,5 +1,6 @@
 #include "tools/graph/g2o_file.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include <limits>
 #include <random>
 
+#include "slam/graph/cold_solution.h"
 #include "slam/graph/edge_error.h"
 #include "tests/build_paths.h"
 #include "tools/evaluation/text_file.h"
@@ -60,6 +62,16 @@ TEST(G2oFile, EdgesOfIdsThatDoNotFollowEachOtherAreLoops) {
       "a.g2o");
   ASSERT_TRUE(file) << file.error().message;
   EXPECT_TRUE(file->graph.edges.at(0).loop);
+}
+
+TEST(G2oFile, ASecondEdgeBetweenTheSameTwoIsALoopWhicheverWayItPoints) {
+  const auto file = parse_g2o(kTwoVertices + kEdgeLine + kEdgeLine +
+                                  "EDGE_SE3:QUAT 8 7 0 0 0 0 0 0 1 " + kInformation + "\n",
+                              "a.g2o");
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_FALSE(file->graph.edges.at(0).loop);
+  EXPECT_TRUE(file->graph.edges.at(1).loop);
+  EXPECT_TRUE(file->graph.edges.at(2).loop);
 }
 
 TEST(G2oFile, ErrorsNameFileLineAndFix) {
@@ -144,6 +156,43 @@ TEST(OptimiseGraph, ReachesTheOptimumOfAPublishedGraph) {
     lowest = std::min(lowest, summary.final_cost);
   }
   EXPECT_NEAR(report->final_cost, lowest, 1e-3);
+}
+
+// Between any two vertices, from anywhere to anywhere, a tenth of the true ones, with the
+// information of a true one.
+std::string with_false_loops(std::string text, const G2oGraph& clean, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto any = [&](double reach) {
+    return reach * (static_cast<double>(random() % 20001) / 1e4 - 1.0);
+  };
+  const std::string& true_loop = clean.edge_fields.back();
+  std::size_t at = 0;
+  for (int field = 0; field < 10; ++field) at = true_loop.find(' ', at) + 1;
+  const std::string information = true_loop.substr(at);
+  for (int i = 0; i < 17; ++i) {
+    const auto from = clean.ids[random() % clean.ids.size()];
+    auto to = from;
+    while (to == from) to = clean.ids[random() % clean.ids.size()];
+    const Eigen::Quaterniond q =
+        Eigen::Quaterniond(any(1.0), any(1.0), any(1.0), any(1.0)).normalized();
+    text += fmt::format("EDGE_SE3:QUAT {} {} {} {} {} {} {} {} {} {}\n", from, to, any(3.0),
+                        any(3.0), any(3.0), q.x(), q.y(), q.z(), q.w(), information);
+  }
+  return text;
+}
+
+TEST(OptimiseGraph, TakesOutTheFalseLoopsOfAPublishedGraphAndNoTrueOne) {
+  const fs::path file = published_graph("smallGrid3D.g2o");
+  if (!fs::exists(file)) GTEST_SKIP() << file << " is not there; SPARSIGHT_DATA names its folder";
+  const std::string text = read_text_file(file).value();
+  const G2oGraph clean = parse_g2o(text, "smallGrid3D.g2o").value();
+  const double optimum = solve_from_cold(clean.graph, {}).final_cost;
+  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+    const G2oGraph dirty = parse_g2o(with_false_loops(text, clean, seed), "dirty.g2o").value();
+    const ColdSolution solution = solve_from_cold(dirty.graph, {});
+    EXPECT_EQ(solution.taken_out.size(), 17U) << seed;
+    EXPECT_NEAR(solution.final_cost, optimum, 1e-3) << seed;
+  }
 }
 
 }  // namespace
