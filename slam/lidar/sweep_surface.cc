@@ -66,7 +66,7 @@ class Bins {
   SweepSurface::Plane plane(int row, int column) const {
     if (bins_[index(row, column)].count() == 0.0) return {};
     for (const Block& block : kBlocks) {
-      const SweepSurface::Plane plane = plane_through(moments(block, row, column));
+      SweepSurface::Plane plane = plane_through(moments(block, row, column));
       if (!plane.normal.isZero()) return plane;
     }
     return {};
