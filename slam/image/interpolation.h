@@ -20,7 +20,7 @@ inline bool can_sample(int width, int height, float u, float v) {
 
 // Precondition: can_sample(). The scalar reference of what the vector kernel computes.
 ImageSample sample(const GreyImage& image, float u, float v);
-// Its value alone, a third of the work.
+// Its value alone, of a quarter of the pixels.
 float sample_value(const GreyImage& image, float u, float v);
 
 }  // namespace sparsight
