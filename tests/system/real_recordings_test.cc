@@ -44,7 +44,7 @@ TEST_P(RealRecording, Odometry04StaysWithinItsBounds) {
   const json result = replay_and_evaluate(kitti / "sequences" / "04", kitti / "poses" / "04.txt",
                                           GetParam(), "default");
   EXPECT_LE(result.at("kitti").at("t_rel_percent").get<double>(), 0.9) << result.dump(1);
-  EXPECT_LE(result.at("ate").at("rmse_m").get<double>(), 0.08);
+  EXPECT_LE(result.at("ate").at("rmse_m").get<double>(), 0.06) << "measured: 0.018, 0.046, 0.016";
   EXPECT_LE(result.at("kitti").at("r_rel_deg_per_m").get<double>(), 0.005);
   EXPECT_NE(result.at("session").at("notes").dump().find("k1"), std::string::npos)
       << "what the images show of the camera is told";
