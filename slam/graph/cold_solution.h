@@ -20,7 +20,7 @@ struct ColdSolution {
 // squares from the poses given and from chordal_start(); if the better of the two contradicts some
 // loops, Dynamic Covariance Scaling whose Phi comes down step by step, the contradicted ones are
 // taken out, and least squares again over what is left; a loop that then costs no more than a true
-// one may comes back. A graph without false loops thus gets its least-squares optimum exactly.
+// one may is put back. A graph without false loops thus gets its least-squares optimum exactly.
 ColdSolution solve_from_cold(const PoseGraph& graph, const GraphOptimizerConfig& config);
 
 }  // namespace sparsight

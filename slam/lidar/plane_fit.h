@@ -32,7 +32,7 @@ struct PlaneAxes {
 };
 PlaneAxes plane_axes(const Eigen::Matrix3d& covariance);
 
-// No more than the smallest eigenvalue, at a tenth of the cost of knowing it.
+// No more than the smallest eigenvalue: the first step towards it.
 double least_variance(const Eigen::Matrix3d& covariance);
 
 }  // namespace sparsight

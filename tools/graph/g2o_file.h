@@ -14,9 +14,9 @@ namespace sparsight {
 // A graph of 3D poses in g2o's text format: VERTEX_SE3:QUAT, EDGE_SE3:QUAT and FIX lines.
 //
 // Edges between vertices whose ids do not follow each other are loops, and so is a second edge
-// between two that do. The information is taken as
-// that of [x y z, rotation vector] of the error Z^-1 T_from^-1 T_to, as GTSAM, SE-Sync and Ceres'
-// example do; g2o itself measures a rotation by the vector part of its quaternion, half as long.
+// between two that do. The information is taken as that of [x y z, rotation vector] of the error
+// Z^-1 T_from^-1 T_to, as GTSAM, SE-Sync and Ceres' example do; g2o itself measures a rotation by
+// the vector part of its quaternion, half as long.
 struct G2oGraph {
   PoseGraph graph;
   std::vector<std::int64_t> ids;         // of the nodes
