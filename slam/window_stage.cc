@@ -35,9 +35,8 @@ CloudPoint colored(const CameraReturn& r, const SynchronizedFrame& frame) {
 }
 
 // What the camera does not see would take the colour of what hides it.
-std::vector<CloudPoint> colored(const std::vector<CameraReturn>& returns, const CameraModel& camera,
-                                const SynchronizedFrame& frame) {
-  const std::vector<bool> hidden = hidden_from_camera(returns, camera);
+std::vector<CloudPoint> colored(const std::vector<CameraReturn>& returns,
+                                const std::vector<bool>& hidden, const SynchronizedFrame& frame) {
   std::vector<CloudPoint> cloud;
   cloud.reserve(returns.size());
   for (std::size_t i = 0; i < returns.size(); ++i) {
@@ -113,6 +112,7 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
   };
   const std::vector<CameraReturn> returns =
       returns_in_image(frame.sweep, camera_, calibration_.T_camera_lidar, motion_around);
+  const std::vector<bool> hidden = hidden_from_camera(returns, camera_);
 
   auto keyframe = std::make_unique<Keyframe>();
   keyframe->sequence = frame.sequence;
@@ -124,7 +124,7 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
   if (weighs_rough || config_.tracker.sweep_arbiter) {
     keyframe->surface = surface_of(frame.sweep, calibration_.T_camera_lidar, motion_around);
   }
-  keyframe->points = select_points(returns, frame.grey, camera_, config_.points);
+  keyframe->points = select_points(returns, hidden, frame.grey, camera_, config_.points);
   keyframe->mean_inverse_depth = mean_inverse_depth(keyframe->points);
   if (weighs_rough && calm(tracked.outcome)) {
     weigh_down_rough(keyframe->points, keyframe->surface, calibration_.T_camera_lidar);
@@ -139,7 +139,7 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
   for (int level = 0; level < tracked.pyramid.levels(); ++level) {
     keyframe->patches.push_back(patches_of(*keyframe, level));
   }
-  keyframe->cloud_camera = colored(returns, camera_, frame);
+  keyframe->cloud_camera = colored(returns, hidden, frame);
   return keyframe;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "slam/image/halving.h"
+
 namespace sparsight {
 namespace {
 
@@ -17,10 +19,7 @@ void halve(const GreyImage& fine, GreyImage& coarse) {
     const std::uint8_t* upper = fine.pixels.data() + std::ptrdiff_t{2} * v * fine.width;
     const std::uint8_t* lower = upper + fine.width;
     std::uint8_t* out = coarse.pixels.data() + std::ptrdiff_t{v} * coarse.width;
-    for (int u = 0; u < coarse.width; ++u) {
-      const int sum = upper[2 * u] + upper[2 * u + 1] + lower[2 * u] + lower[2 * u + 1];
-      out[u] = static_cast<std::uint8_t>((sum + 2) / 4);
-    }
+    halve_rows(upper, lower, coarse.width, out);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "slam/geometry/se3.h"
 #include "slam/loop/integrated_depth.h"
 #include "slam/loop/pose_from_matches.h"
+#include "slam/points/visibility.h"
 
 namespace sparsight {
 namespace {
@@ -102,7 +103,8 @@ LoopVerifier::Start LoopVerifier::start_from_matches(const LoopView& current,
 Keyframe LoopVerifier::keyframe_of(const LoopView& view) const {
   Keyframe keyframe;
   keyframe.pyramid = ImagePyramid(view.image, tracker_config_.pyramid_levels);
-  keyframe.points = select_points(view.returns, view.image, camera_, points_);
+  keyframe.points = select_points(view.returns, hidden_from_camera(view.returns, camera_),
+                                  view.image, camera_, points_);
   double sum = 0.0;
   for (const SelectedPoint& point : keyframe.points) sum += 1.0 / point.p_camera.z();
   keyframe.mean_inverse_depth =

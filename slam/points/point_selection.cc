@@ -49,12 +49,12 @@ class SphereBins {
 }  // namespace
 
 std::vector<SelectedPoint> select_points(const std::vector<CameraReturn>& returns,
-                                         const GreyImage& image, const CameraModel& camera,
+                                         const std::vector<bool>& hidden, const GreyImage& image,
+                                         const CameraModel& camera,
                                          const PointSelectionConfig& config) {
   std::vector<bool> rejected(returns.size(), false);
   if (config.reject_depth_edges) rejected = on_depth_edge(returns);
   if (config.reject_hidden) {
-    const std::vector<bool> hidden = hidden_from_camera(returns, camera);
     for (std::size_t i = 0; i < hidden.size(); ++i) rejected[i] = rejected[i] || hidden[i];
   }
 

@@ -22,8 +22,10 @@ struct PointSelectionConfig {
 
 // Of the returns in each bin of the sphere around the camera the one with the largest image
 // gradient, however small that is. Their patches fit into the image. In the order of the bins.
+// hidden: of the returns, from visibility.h.
 std::vector<SelectedPoint> select_points(const std::vector<CameraReturn>& returns,
-                                         const GreyImage& image, const CameraModel& camera,
+                                         const std::vector<bool>& hidden, const GreyImage& image,
+                                         const CameraModel& camera,
                                          const PointSelectionConfig& config);
 
 }  // namespace sparsight

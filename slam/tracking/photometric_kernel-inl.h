@@ -1,6 +1,7 @@
 // The vector code of photometric_kernel.cc, compiled once per instruction set (hence no plain
 // include guard; see Highway's g3doc/quick_reference.md).
 
+#include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
 #include <array>
@@ -17,6 +18,7 @@ namespace sparsight {
 // width.
 inline constexpr std::size_t kSumLanes = PatchSet::kBlock;
 using LaneSums = std::array<float, kSumLanes>;
+using PatchLaneSums = std::array<double, Linearization::kPatchLanes>;
 
 // Upper triangle of H row by row, then b.
 inline constexpr std::size_t kNormalSums =
@@ -254,6 +256,21 @@ void log_likelihood_sums(const Linearization& l, float scale, LaneSums& costs, L
     }
     hn::StoreU(cost_sum, f, costs.data() + lane);
     hn::StoreU(weight_sum, f, weights.data() + lane);
+  }
+}
+
+void patch_log_sums(const Linearization& l, double dof, double scale, PatchLaneSums& out) {
+  const hn::CappedTag<double, Linearization::kPatchLanes> d;
+  const std::size_t step = hn::Lanes(d);
+  for (std::size_t lane = 0; lane < out.size(); lane += step) {
+    auto sum = hn::Zero(d);
+    for (std::size_t at = lane; at < l.patch_squares.size(); at += out.size()) {
+      const auto squares = hn::LoadU(d, l.patch_squares.data() + at);
+      const auto pixels = hn::LoadU(d, l.patch_pixels.data() + at);
+      const auto log = hn::Log(d, hn::MulAdd(squares, hn::Set(d, scale), hn::Set(d, 1.0)));
+      sum = hn::MulAdd(hn::Add(hn::Set(d, dof), pixels), log, sum);
+    }
+    hn::StoreU(sum, d, out.data() + lane);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "slam/tracking/photometric_kernel.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,15 +21,26 @@ namespace sparsight {
 HWY_EXPORT(linearize_entries);
 HWY_EXPORT(weighted_square_sums);
 HWY_EXPORT(log_likelihood_sums);
+HWY_EXPORT(patch_log_sums);
 HWY_EXPORT(normal_equation_sums);
 HWY_EXPORT(column_sums);
 
 namespace {
 
-double total(const LaneSums& lanes) {
+template <typename Lanes>
+double total(const Lanes& lanes) {
   double sum = 0.0;
-  for (const float lane : lanes) sum += static_cast<double>(lane);
+  for (const auto lane : lanes) sum += static_cast<double>(lane);
   return sum;
+}
+
+// One column per patch.
+using PatchColumns =
+    Eigen::Map<const Eigen::Array<float, static_cast<int>(kPatternSize), Eigen::Dynamic>>;
+
+PatchColumns columns_of(const std::vector<float>& entries) {
+  return {entries.data(), static_cast<int>(kPatternSize),
+          static_cast<Eigen::Index>(entries.size() / kPatternSize)};
 }
 
 ProjectionParameters projection_parameters(const GreyImage& image, const CameraModel& camera,
@@ -74,9 +86,22 @@ void Linearization::resize(std::size_t entries) {
   residual.resize(entries);
   weight.resize(entries);
   for (std::vector<float>& column : J) column.resize(entries);
-  scratch.patch_squares.resize(entries / kPatternSize);
-  scratch.patch_pixels.resize(entries / kPatternSize);
-  scratch.weights.resize(entries);
+  const std::size_t patches = entries / kPatternSize;
+  const std::size_t padded = (patches + kPatchLanes - 1) / kPatchLanes * kPatchLanes;
+  patch_squares.resize(padded);
+  patch_pixels.resize(padded);
+  std::fill(patch_squares.begin() + static_cast<std::ptrdiff_t>(patches), patch_squares.end(), 0.0);
+  std::fill(patch_pixels.begin() + static_cast<std::ptrdiff_t>(patches), patch_pixels.end(), 0.0);
+  robust_weight.resize(entries);
+}
+
+void sum_patches(Linearization& l) {
+  const PatchColumns weight = columns_of(l.weight);
+  const PatchColumns residual = columns_of(l.residual);
+  Eigen::Map<Eigen::ArrayXd>(l.patch_squares.data(), weight.cols()) =
+      (weight * residual.square()).colwise().sum().transpose().cast<double>();
+  Eigen::Map<Eigen::ArrayXd>(l.patch_pixels.data(), weight.cols()) =
+      weight.colwise().sum().transpose().cast<double>();
 }
 
 void linearize(const PatchSet& patches, const GreyImage& image, const CameraModel& camera,
@@ -85,6 +110,7 @@ void linearize(const PatchSet& patches, const GreyImage& image, const CameraMode
   out.resize(patches.entries());
   HWY_DYNAMIC_DISPATCH(linearize_entries)
   (patches, projection_parameters(image, camera, T_camera_keyframe, brightness), out);
+  sum_patches(out);
 }
 
 double estimate_sigma(const Linearization& linearization, double student_t_dof,
@@ -116,6 +142,12 @@ double robust_cost(const Linearization& linearization, double student_t_dof, dou
   const double weight = total(weights);
   if (weight <= 0.0) return std::numeric_limits<double>::infinity();
   return (student_t_dof + 1.0) * sigma * sigma * total(costs) / weight;
+}
+
+double patch_log_sum(const Linearization& linearization, double student_t_dof, double scale) {
+  PatchLaneSums sums;
+  HWY_DYNAMIC_DISPATCH(patch_log_sums)(linearization, student_t_dof, scale, sums);
+  return total(sums);
 }
 
 double weight_sum(const std::vector<float>& weights) {

@@ -23,14 +23,13 @@ struct Linearization {
   std::vector<float> residual;          // grey levels
   std::vector<float> weight;            // PatchSet::weight where inside the image, else 0
   std::array<std::vector<float>, 6> J;  // grey levels per rad, per metre
+  // Of each patch, sum w r^2 and sum w; zeros up to a multiple of kPatchLanes.
+  std::vector<double> patch_squares;
+  std::vector<double> patch_pixels;
+  static constexpr std::size_t kPatchLanes = 8;
 
   // Where robust_model.h computes, kept so that it allocates once. No part of the value.
-  struct Scratch {
-    std::vector<double> patch_squares;
-    std::vector<double> patch_pixels;
-    std::vector<float> weights;
-  };
-  mutable Scratch scratch;
+  mutable std::vector<float> robust_weight;
 
   // Keeps its memory when it shrinks.
   void resize(std::size_t entries);
@@ -53,6 +52,9 @@ void linearize(const PatchSet& patches, const GreyImage& image, const CameraMode
                const Eigen::Isometry3d& T_camera_keyframe, const Brightness& brightness,
                Linearization& out);
 
+// The sums over patches, where residuals or weights were set by other means.
+void sum_patches(Linearization& linearization);
+
 // sigma of eq. (5): the fixed point of sigma^2 = sum w(r) r^2 / n, started at sigma_start (Kerl et
 // al. 2013, Sec. III-B). At least kMinSigma.
 inline constexpr double kMinSigma = 0.3;  // grey levels: quantisation to 8 bits
@@ -61,6 +63,9 @@ double estimate_sigma(const Linearization& linearization, double student_t_dof, 
 // Mean negative log-likelihood of the t-distribution, up to a constant, times sigma^2: the energy
 // that eq. (4) descends for a given sigma. Infinite if no entry has weight.
 double robust_cost(const Linearization& linearization, double student_t_dof, double sigma);
+
+// Sum over the patches of (dof + sum w) log(1 + scale sum w r^2).
+double patch_log_sum(const Linearization& linearization, double student_t_dof, double scale);
 
 // Sum of the weights of a PatchSet or a Linearization.
 double weight_sum(const std::vector<float>& weights);

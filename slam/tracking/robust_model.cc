@@ -10,38 +10,11 @@
 namespace sparsight {
 namespace {
 
-// One column per patch.
-using PatchColumns =
-    Eigen::Map<const Eigen::Array<float, static_cast<int>(kPatternSize), Eigen::Dynamic>>;
+using Sums = Eigen::Map<const Eigen::ArrayXd>;
 
-PatchColumns columns_of(const std::vector<float>& entries) {
-  return {entries.data(), static_cast<int>(kPatternSize),
-          static_cast<Eigen::Index>(entries.size() / kPatternSize)};
+Sums array_of(const std::vector<double>& sums) {
+  return {sums.data(), static_cast<Eigen::Index>(sums.size())};
 }
-
-Eigen::Map<Eigen::ArrayXd> array_of(std::vector<double>& scratch, std::size_t entries) {
-  scratch.resize(entries / kPatternSize);
-  return {scratch.data(), static_cast<Eigen::Index>(scratch.size())};
-}
-
-// One element per patch, in the linearisation's scratch space.
-struct PatchSums {
-  Eigen::Map<Eigen::ArrayXd> squares;  // sum of w r^2
-  Eigen::Map<Eigen::ArrayXd> pixels;   // sum of w
-
-  explicit PatchSums(const Linearization& l)
-      : squares(array_of(l.scratch.patch_squares, l.weight.size())),
-        pixels(array_of(l.scratch.patch_pixels, l.weight.size())) {
-    const PatchColumns weight = columns_of(l.weight);
-    const PatchColumns residual = columns_of(l.residual);
-    squares = (weight * residual.square()).colwise().sum().transpose().cast<double>();
-    pixels = weight.colwise().sum().transpose().cast<double>();
-  }
-  // An expression: nothing is computed, or stored, before it is used.
-  auto weights(double dof, double sigma) const {
-    return (dof + pixels) / (dof + squares / (sigma * sigma));
-  }
-};
 
 }  // namespace
 
@@ -52,14 +25,15 @@ double estimate_sigma(const Linearization& linearization, const PhotometryConfig
   }
   constexpr int kMaxIterations = 30;
   constexpr double kRelativeTolerance = 1e-3;
-  const PatchSums patches(linearization);
-  const double pixels = patches.pixels.sum();
+  const Sums squares = array_of(linearization.patch_squares);
+  const Sums pixels = array_of(linearization.patch_pixels);
+  const double dof = photometry.student_t_dof;
+  const double all = pixels.sum();
   double sigma = std::max(sigma_start, kMinSigma);
-  if (pixels <= 0.0) return sigma;
+  if (all <= 0.0) return sigma;
   for (int i = 0; i < kMaxIterations; ++i) {
-    const double squares =
-        (patches.weights(photometry.student_t_dof, sigma) * patches.squares).sum();
-    const double updated = std::max(std::sqrt(squares / pixels), kMinSigma);
+    const double weighted = ((dof + pixels) / (dof + squares / (sigma * sigma)) * squares).sum();
+    const double updated = std::max(std::sqrt(weighted / all), kMinSigma);
     const bool settled = std::abs(updated - sigma) < kRelativeTolerance * sigma;
     sigma = updated;
     if (settled) break;
@@ -73,11 +47,9 @@ double robust_cost(const Linearization& linearization, const PhotometryConfig& p
     return robust_cost(linearization, photometry.student_t_dof, sigma);
   }
   const double dof = photometry.student_t_dof;
-  const PatchSums patches(linearization);
-  const double pixels = patches.pixels.sum();
+  const double pixels = array_of(linearization.patch_pixels).sum();
   if (pixels <= 0.0) return std::numeric_limits<double>::infinity();
-  const double cost =
-      ((dof + patches.pixels) * (1.0 + patches.squares / (dof * sigma * sigma)).log()).sum();
+  const double cost = patch_log_sum(linearization, dof, 1.0 / (dof * sigma * sigma));
   return 0.5 * sigma * sigma * cost / pixels;
 }
 
@@ -86,17 +58,16 @@ NormalEquations accumulate(const PatchSet& patches, const Linearization& lineari
   if (!photometry.patch_weights) {
     return accumulate(patches, linearization, photometry.student_t_dof, sigma);
   }
-  const PatchSums sums(linearization);
   const double dof = photometry.student_t_dof;
-  const PatchColumns pixel_weights = columns_of(linearization.weight);
-  std::vector<float>& weights = linearization.scratch.weights;
+  std::vector<float>& weights = linearization.robust_weight;
   weights.resize(linearization.weight.size());
-  Eigen::Map<Eigen::Array<float, static_cast<int>(kPatternSize), Eigen::Dynamic>> columns(
-      weights.data(), static_cast<int>(kPatternSize), pixel_weights.cols());
-  for (Eigen::Index patch = 0; patch < columns.cols(); ++patch) {
-    const double weight =
-        (dof + sums.pixels(patch)) / (dof + sums.squares(patch) / (sigma * sigma));
-    columns.col(patch) = pixel_weights.col(patch) * static_cast<float>(weight);
+  for (std::size_t first = 0; first < weights.size(); first += kPatternSize) {
+    const std::size_t patch = first / kPatternSize;
+    const double weight = (dof + linearization.patch_pixels[patch]) /
+                          (dof + linearization.patch_squares[patch] / (sigma * sigma));
+    for (std::size_t i = first; i < first + kPatternSize; ++i) {
+      weights[i] = linearization.weight[i] * static_cast<float>(weight);
+    }
   }
   return accumulate_weighted(patches, linearization, weights);
 }

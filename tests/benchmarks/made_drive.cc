@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "slam/points/point_selection.h"
+#include "slam/points/visibility.h"
 #include "tests/synthetic/synthetic_source.h"
 
 namespace sparsight {
@@ -49,8 +50,10 @@ std::unique_ptr<Keyframe> MadeDrive::keyframe(std::size_t frame) const {
   keyframe->pyramid = ImagePyramid(frames[frame].grey, kLevels);
   PointSelectionConfig selection;
   selection.bin_deg = 1.0;
-  keyframe->points =
-      every_nth(select_points(returns(frame), frames[frame].grey, camera, selection), kPoints);
+  const std::vector<CameraReturn> seen = returns(frame);
+  keyframe->points = every_nth(
+      select_points(seen, hidden_from_camera(seen, camera), frames[frame].grey, camera, selection),
+      kPoints);
   for (const SelectedPoint& point : keyframe->points) {
     keyframe->mean_inverse_depth +=
         1.0 / (point.p_camera.z() * static_cast<double>(keyframe->points.size()));

@@ -1,5 +1,6 @@
 #include "slam/points/camera_returns.h"
 #include "slam/points/point_selection.h"
+#include "slam/points/visibility.h"
 #include "slam/tracking/patch_set.h"
 #include "tests/benchmarks/made_drive.h"
 
@@ -27,7 +28,8 @@ void select(benchmark::State& state, bool surface_slope) {
   config.surface_slope = surface_slope;
   std::size_t selected = 0;
   for (auto _ : state) {
-    const auto points = select_points(returns, drive.frames.front().grey, camera, config);
+    const auto points = select_points(returns, hidden_from_camera(returns, camera),
+                                      drive.frames.front().grey, camera, config);
     selected = points.size();
     benchmark::DoNotOptimize(points.data());
   }

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "tests/slam/analytic_image.h"
+#include "tests/slam/instruction_set.h"
 
 namespace sparsight {
 namespace {
@@ -23,6 +25,26 @@ TEST(ImagePyramid, HalvesByMeansRoundedToNearest) {
   EXPECT_EQ(pyramid.level(1).at(0, 0), 0) << "1/4";
   EXPECT_EQ(pyramid.level(1).at(1, 0), 1) << "2/4, upwards";
   EXPECT_EQ(pyramid.level(1).at(2, 0), 255) << "no overflow";
+}
+
+TEST(ImagePyramid, IsTheSameForEveryWidthOnEveryInstructionSet) {
+  std::mt19937 random(3);
+  for (const int width : {32, 34, 62, 65, 100, 161}) {
+    const GreyImage image = analytic_image(
+        width, 32, [&](double, double) { return static_cast<double>(random() % 256); });
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+      SCOPED_TRACE(hwy::TargetName(target));
+      const InstructionSet only(target);
+      const ImagePyramid pyramid(image, 2);
+      for (int v = 0; v < 16; ++v) {
+        for (int u = 0; u < width / 2; ++u) {
+          const int sum = image.at(2 * u, 2 * v) + image.at(2 * u + 1, 2 * v) +
+                          image.at(2 * u, 2 * v + 1) + image.at(2 * u + 1, 2 * v + 1);
+          ASSERT_EQ(pyramid.level(1).at(u, v), (sum + 2) / 4) << width << ": " << u << ", " << v;
+        }
+      }
+    }
+  }
 }
 
 TEST(ImagePyramid, KeepsAnAffineImageAffineAboutPixelCentres) {

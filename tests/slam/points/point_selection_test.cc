@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "slam/points/visibility.h"
 #include "tests/slam/analytic_image.h"
 #include "tests/slam/random_values.h"
 
@@ -27,7 +28,8 @@ GreyImage flat() {
 
 std::vector<SelectedPoint> select(const std::vector<CameraReturn>& returns, const GreyImage& image,
                                   const PointSelectionConfig& config = {}) {
-  return select_points(returns, image, CameraModel(kIntrinsics), config);
+  const CameraModel camera(kIntrinsics);
+  return select_points(returns, hidden_from_camera(returns, camera), image, camera, config);
 }
 
 std::pair<int, int> bin_of(const Eigen::Vector3f& p, double bin_deg) {

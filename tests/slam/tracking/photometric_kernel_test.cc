@@ -1,13 +1,13 @@
 #include "slam/tracking/photometric_kernel.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 #include <rapidcheck/gtest.h>
 
 #include <limits>
 
 #include "slam/tracking/photometric_reference.h"
 #include "tests/numeric_jacobian.h"
+#include "tests/slam/instruction_set.h"
 #include "tests/slam/random_values.h"
 #include "tests/slam/sine_room.h"
 
@@ -15,21 +15,6 @@ namespace sparsight {
 namespace {
 
 constexpr double kDof = 5.0;
-
-// Runs the kernel for one instruction set while in scope.
-class InstructionSet {
- public:
-  explicit InstructionSet(std::int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-  ~InstructionSet() {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-  InstructionSet(const InstructionSet&) = delete;
-  InstructionSet& operator=(const InstructionSet&) = delete;
-};
 
 // Whether a product and a sum are rounded once (x86-64's older instruction sets round twice).
 bool fuses(std::int64_t target) {
@@ -122,6 +107,11 @@ TEST_P(PhotometricKernel, AgreesWithTheReferenceOnEveryInstructionSet) {
     const Linearization& l = pass.linearization;
     EXPECT_NEAR(pass.sigma, reference::estimate_sigma(l, kDof, 5.0), 2e-3 * pass.sigma);
     EXPECT_NEAR(pass.cost, reference::robust_cost(l, kDof, 3.0), 1e-5 * pass.cost);
+    double log_sum = 0.0;
+    for (std::size_t patch = 0; patch < l.patch_squares.size(); ++patch) {
+      log_sum += (kDof + l.patch_pixels[patch]) * std::log1p(0.1 * l.patch_squares[patch]);
+    }
+    EXPECT_NEAR(patch_log_sum(l, kDof, 0.1), log_sum, 1e-9 * log_sum);
     const NormalEquations sums = reference::accumulate(view_.patches, l, kDof, 3.0);
     const Eigen::Matrix<double, 8, 1> scale = sums.H.diagonal().cwiseSqrt();
     const auto relative = scale.cwiseInverse().asDiagonal();

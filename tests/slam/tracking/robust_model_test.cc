@@ -28,13 +28,19 @@ struct Sample {
     for (std::vector<float>& column : linearization.J) {
       for (float& value : column) value = normal(random);
     }
-    linearization.weight.assign(entries, 1.0F);
+    set_weights(1.0F);
+  }
+
+  void set_weights(float weight) {
+    linearization.weight.assign(linearization.weight.size(), weight);
+    sum_patches(linearization);
   }
 
   void set_patch(std::size_t patch, float residual) {
     for (std::size_t i = 0; i < kPatternSize; ++i) {
       linearization.residual[patch * kPatternSize + i] = residual;
     }
+    sum_patches(linearization);
   }
 };
 
@@ -51,6 +57,7 @@ Sample drawn(double sigma, std::size_t count) {
           static_cast<float>(scale * normal(random));
     }
   }
+  sum_patches(sample.linearization);
   return sample;
 }
 
@@ -97,9 +104,25 @@ TEST(RobustModel, CostFallsWithTheResiduals) {
             robust_cost(large.linearization, kPerPatch, 4.0));
 }
 
+TEST(RobustModel, CostIsTheLikelihoodOfTheMultivariateTDistribution) {
+  for (const std::size_t count : {1U, 3U, 64U}) {
+    const Sample s = drawn(4.0, count);
+    double expected = 0.0;
+    for (std::size_t patch = 0; patch < count; ++patch) {
+      double squares = 0.0;
+      for (std::size_t i = 0; i < kPatternSize; ++i) {
+        squares += std::pow(s.linearization.residual[patch * kPatternSize + i], 2);
+      }
+      expected += 0.5 * 9.0 * (5.0 + 8.0) * std::log1p(squares / (5.0 * 9.0));
+    }
+    EXPECT_NEAR(robust_cost(s.linearization, kPerPatch, 3.0),
+                expected / static_cast<double>(count * kPatternSize), 1e-6 * expected);
+  }
+}
+
 TEST(RobustModel, HasNoCostWithoutPixels) {
   Sample s(2);
-  s.linearization.weight.assign(s.linearization.weight.size(), 0.0F);
+  s.set_weights(0.0F);
   EXPECT_TRUE(std::isinf(robust_cost(s.linearization, kPerPatch, 4.0)));
 }
 

@@ -6,6 +6,7 @@
 
 #include "slam/points/camera_returns.h"
 #include "slam/points/point_selection.h"
+#include "slam/points/visibility.h"
 #include "tests/slam/sine_room.h"
 #include "tests/slam/tracking/counted_budget.h"
 #include "tests/synthetic/scene.h"
@@ -169,9 +170,9 @@ TEST(TrackerElsewhere, ReportsNoPoseFromAnotherPlace) {
   const GreyImage image = here.image(0);
   Keyframe keyframe;
   keyframe.pyramid = ImagePyramid(image, 4);
-  keyframe.points = select_points(returns_in_image(here.sweep(0), camera, here.rig.T_camera_lidar,
-                                                   constant_motion(Vector6d::Zero())),
-                                  image, camera, {});
+  const std::vector<CameraReturn> returns = returns_in_image(
+      here.sweep(0), camera, here.rig.T_camera_lidar, constant_motion(Vector6d::Zero()));
+  keyframe.points = select_points(returns, hidden_from_camera(returns, camera), image, camera, {});
   keyframe.mean_inverse_depth = 0.2;
   for (int level = 0; level < 4; ++level) {
     keyframe.patches.push_back(make_patches(keyframe.pyramid, level, camera, keyframe.points, 0.0));
