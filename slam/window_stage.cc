@@ -79,17 +79,18 @@ bool WindowStage::accept(const SynchronizedFrame& frame, const TrackedFrame& tra
     ++submap_;
   }
   window_.add(std::move(keyframe));
+  if (std::exchange(other_camera_, false)) {
+    camera_ = self_calibration_.camera();
+    window_.set_camera(camera_);
+  }
   return true;
 }
 
 void WindowStage::optimize(std::optional<int> most_iterations) {
   window_.optimize(most_iterations);
-  // What leaves goes by the terms that were minimised, before the camera changes them.
   if (window_.full()) retire_oldest();
-  if (config_.self_calibration.enabled && window_.teach(self_calibration_)) {
-    camera_ = self_calibration_.camera();
-    window_.set_camera(camera_);
-  }
+  // Used from the next keyframe on: this one's patches, at all levels, need not be made again.
+  if (config_.self_calibration.enabled && window_.teach(self_calibration_)) other_camera_ = true;
 }
 
 // Where it was tracked, from its keyframe as that is known now: while the frame waited, the window
@@ -104,6 +105,7 @@ Eigen::Isometry3d WindowStage::pose_of(const TrackedFrame& tracked) {
 
 std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& frame,
                                                      const TrackedFrame& tracked) {
+  const CameraModel& camera = self_calibration_.camera();
   const MotionModel& motion = tracked.motion;
   const Eigen::Isometry3d T_exposure_keyframe = motion.at(frame.exposure).inverse();
   const auto motion_around = [&](double seconds) -> Eigen::Isometry3d {
@@ -111,8 +113,8 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
            motion.at(frame.exposure + std::chrono::nanoseconds(std::llround(1e9 * seconds)));
   };
   const std::vector<CameraReturn> returns =
-      returns_in_image(frame.sweep, camera_, calibration_.T_camera_lidar, motion_around);
-  const std::vector<bool> hidden = hidden_from_camera(returns, camera_);
+      returns_in_image(frame.sweep, camera, calibration_.T_camera_lidar, motion_around);
+  const std::vector<bool> hidden = hidden_from_camera(returns, camera);
 
   auto keyframe = std::make_unique<Keyframe>();
   keyframe->sequence = frame.sequence;
@@ -124,7 +126,7 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
   if (weighs_rough || config_.tracker.sweep_arbiter) {
     keyframe->surface = surface_of(frame.sweep, calibration_.T_camera_lidar, motion_around);
   }
-  keyframe->points = select_points(returns, hidden, frame.grey, camera_, config_.points);
+  keyframe->points = select_points(returns, hidden, frame.grey, camera, config_.points);
   keyframe->mean_inverse_depth = mean_inverse_depth(keyframe->points);
   if (weighs_rough && calm(tracked.outcome)) {
     weigh_down_rough(keyframe->points, keyframe->surface, calibration_.T_camera_lidar);
@@ -133,7 +135,7 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
       tracked.outcome.status == FrameOutcome::Status::kTracked &&
       window_.latest().sequence == tracked.outcome.keyframe_sequence) {
     weigh_down_strangers(
-        keyframe->points, patches_of(*keyframe, 0), window_.latest().pyramid.level(0), camera_,
+        keyframe->points, patches_of(*keyframe, 0), window_.latest().pyramid.level(0), camera,
         tracked.outcome.tracking.T_keyframe_camera, tracked.outcome.tracking.vouched);
   }
   for (int level = 0; level < tracked.pyramid.levels(); ++level) {
@@ -144,7 +146,7 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
 }
 
 PatchSet WindowStage::patches_of(const Keyframe& keyframe, int level) const {
-  return make_patches(keyframe.pyramid, level, camera_, keyframe.points,
+  return make_patches(keyframe.pyramid, level, self_calibration_.camera(), keyframe.points,
                       config_.photometry.gradient_weight_constant);
 }
 

@@ -49,6 +49,7 @@ class WindowStage {
   CameraModel camera_;
   WindowOptimizer window_;
   SelfCalibration self_calibration_;
+  bool other_camera_ = false;  // it has learned of one
   std::optional<std::uint64_t> considered_;
   std::uint64_t version_ = 0;
   std::uint32_t submap_ = 0;

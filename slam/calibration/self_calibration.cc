@@ -11,9 +11,7 @@ constexpr double kWorthwhilePx = 0.05;
 constexpr double kMostSigmas = 3.0;
 constexpr int kFinest = 0;
 constexpr int kNuisance = NormalEquations::kSize;  // pose, gain, offset
-constexpr int kSize = kNuisance + 2;
-using Row = Eigen::Matrix<double, 1, kSize>;
-using System = Eigen::Matrix<double, kSize, kSize>;
+using Row = Eigen::Matrix<double, 1, kNuisance>;
 
 // What the parameters move: d_pixel / d_[log focal scale, k1].
 Eigen::Matrix2d d_pixel_d_parameters(const CameraModel& camera, const Eigen::Vector2d& normalized,
@@ -81,8 +79,10 @@ void SelfCalibration::observe(const Keyframe& host, const Alignment& at,
   const PatchSet& patches = host.patches[kFinest];
   const double variance = at.sigma_grey * at.sigma_grey;
   const double dof = photometry.student_t_dof;
-  System H = System::Zero();
-  Row b = Row::Zero();
+  NormalEquations n = accumulate(patches, linearization, dof, at.sigma_grey);
+  Eigen::Matrix<double, kNuisance, 2> C = Eigen::Matrix<double, kNuisance, 2>::Zero();
+  Eigen::Matrix2d own = Eigen::Matrix2d::Zero();
+  Parameters slope = Parameters::Zero();
   for (std::size_t i = 0; i < patches.entries(); ++i) {
     if (linearization.weight[i] <= 0.0F) continue;
     Observation o;
@@ -94,21 +94,20 @@ void SelfCalibration::observe(const Keyframe& host, const Alignment& at,
     for (std::size_t k = 0; k < 6; ++k) J(static_cast<int>(k)) = linearization.J[k][i];
     J(6) = -patches.intensity[i];
     J(7) = -1.0;
-    J.tail<2>() = gradient(linearization, i, camera_, o.q) *
-                  d_apart_d_parameters(camera_, at.T_camera_keyframe.linear(), o);
+    const Eigen::RowVector2d J_own =
+        gradient(linearization, i, camera_, o.q) *
+        d_apart_d_parameters(camera_, at.T_camera_keyframe.linear(), o);
     const double r = linearization.residual[i];
     const double weight = linearization.weight[i] * (dof + 1.0) / (dof + r * r / variance);
-    H.noalias() += weight * J.transpose() * J;
-    b += weight * r * J;
+    C.noalias() += weight * J.transpose() * J_own;
+    own.noalias() += weight * J_own.transpose() * J_own;
+    slope += weight * r * J_own.transpose();
   }
   // The nuisances' damping is far below anything that pixels tell.
-  H.diagonal().head<kNuisance>().array() += 1e-6;
-  const auto nuisance = H.topLeftCorner<kNuisance, kNuisance>().ldlt();
-  const Eigen::Matrix<double, kNuisance, 2> C = H.topRightCorner<kNuisance, 2>();
-  const Eigen::Matrix2d information =
-      H.bottomRightCorner<2, 2>() - C.transpose() * nuisance.solve(C);
-  const Parameters gradient =
-      b.tail<2>().transpose() - C.transpose() * nuisance.solve(b.head<kNuisance>().transpose());
+  n.H.diagonal().array() += 1e-6;
+  const auto nuisance = n.H.ldlt();
+  const Eigen::Matrix2d information = own - C.transpose() * nuisance.solve(C);
+  const Parameters gradient = slope - C.transpose() * nuisance.solve(n.b);
   const double share = believed_share_ / variance;
   H_ += share * information;
   b_ += share * (information * in_force_ - gradient);

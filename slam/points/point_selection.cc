@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "slam/geometry/arctangent.h"
 #include "slam/points/surface_slope.h"
 #include "slam/points/visibility.h"
 
@@ -34,8 +35,8 @@ class SphereBins {
         across_(static_cast<int>(std::ceil(M_PI / bin_rad_)) + 1) {}
 
   std::size_t of(const Eigen::Vector3f& p) const {
-    const double azimuth = std::atan2(p.x(), p.z()) + M_PI_2;
-    const double elevation = std::atan2(p.y(), std::sqrt(p.x() * p.x() + p.z() * p.z())) + M_PI_2;
+    const double azimuth = arctangent(p.x(), p.z()) + M_PI_2;
+    const double elevation = arctangent(p.y(), std::sqrt(p.x() * p.x() + p.z() * p.z())) + M_PI_2;
     return static_cast<std::size_t>(static_cast<int>(elevation / bin_rad_) * across_ +
                                     static_cast<int>(azimuth / bin_rad_));
   }

@@ -14,6 +14,8 @@ constexpr double kFirstDamping = 1e-3;
 constexpr double kMostDamping = 1e3;
 constexpr double kMidGrey = 128.0;
 constexpr double kRelinearizationGrey = 0.5;
+// At the image's corner. The pixels that are compared move nearly together.
+constexpr double kRelinearizationCameraPx = 0.5;
 
 const Eigen::Isometry3d& linearization_point(const Keyframe& keyframe) {
   return keyframe.T_world_camera_first ? *keyframe.T_world_camera_first : keyframe.T_world_camera;
@@ -67,12 +69,13 @@ void WindowOptimizer::add_if_covisible(int host, int target) {
 }
 
 void WindowOptimizer::update_pairs() {
+  const bool other_camera = camera_moved_px_ > kRelinearizationCameraPx;
+  if (other_camera) camera_moved_px_ = 0.0;
   for (Pair& pair : pairs_) {
     const Vector6d xi = moved_since_linearized(pair);
-    if (!other_camera_ && !outdated(pair, xi)) continue;
+    if (!other_camera && !outdated(pair, xi)) continue;
     pair.term = linearize(pair.host, pair.target, pair.term.moved(xi));
   }
-  other_camera_ = false;
   for (; looked_at_ < size(); ++looked_at_) {
     for (int earlier = 0; earlier < looked_at_; ++earlier) {
       add_if_covisible(earlier, looked_at_);
@@ -228,14 +231,14 @@ bool WindowOptimizer::teach(SelfCalibration& calibration) {
 }
 
 void WindowOptimizer::set_camera(const CameraModel& camera) {
+  Eigen::Vector2d corner;
+  const bool sees = camera.project(camera_.unproject(Eigen::Vector2d::Zero()), corner);
+  camera_moved_px_ += sees ? corner.norm() : kRelinearizationCameraPx;
   camera_ = camera;
-  other_camera_ = true;
-  for (const auto& keyframe : keyframes_) {
-    for (std::size_t level = 0; level < keyframe->patches.size(); ++level) {
-      keyframe->patches[level] =
-          make_patches(keyframe->pyramid, static_cast<int>(level), camera, keyframe->points,
-                       photometry_.gradient_weight_constant);
-    }
+  for (std::size_t i = 0; i + 1 < keyframes_.size(); ++i) {
+    Keyframe& earlier = *keyframes_[i];
+    earlier.patches.front() = make_patches(earlier.pyramid, 0, camera, earlier.points,
+                                           photometry_.gradient_weight_constant);
   }
 }
 

@@ -60,7 +60,7 @@ class WindowOptimizer {
   WindowSummary optimize(std::optional<int> most_iterations = std::nullopt);
   // Shows the two newest keyframes to the calibration; true if that changed its camera.
   bool teach(SelfCalibration& calibration);
-  // From now on all keyframes are compared through this camera.
+  // From now on all keyframes are compared through this camera, through which the latest was made.
   void set_camera(const CameraModel& camera);
   // The oldest keyframe leaves; its terms stay as a prior. Precondition: size() > 0.
   MarginalizedKeyframe marginalize_oldest();
@@ -101,7 +101,7 @@ class WindowOptimizer {
   // next, and what leaves is marginalised from the very terms that were minimised.
   std::vector<Pair> pairs_;
   int looked_at_ = 0;
-  bool other_camera_ = false;  // pairs_ were linearised through another one
+  double camera_moved_px_ = 0.0;  // since all pairs were linearised anew
   AlignmentWorkspace workspace_;
 };
 
