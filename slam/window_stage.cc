@@ -131,14 +131,16 @@ std::unique_ptr<Keyframe> WindowStage::make_keyframe(const SynchronizedFrame& fr
   if (weighs_rough && calm(tracked.outcome)) {
     weigh_down_rough(keyframe->points, keyframe->surface, calibration_.T_camera_lidar);
   }
+  PatchSet finest = patches_of(*keyframe, 0);
   if (config_.photometry.weigh_down_strangers && window_.size() > 0 &&
       tracked.outcome.status == FrameOutcome::Status::kTracked &&
       window_.latest().sequence == tracked.outcome.keyframe_sequence) {
-    weigh_down_strangers(
-        keyframe->points, patches_of(*keyframe, 0), window_.latest().pyramid.level(0), camera,
-        tracked.outcome.tracking.T_keyframe_camera, tracked.outcome.tracking.vouched);
+    weigh_down_strangers(keyframe->points, finest, window_.latest().pyramid.level(0), camera,
+                         tracked.outcome.tracking.T_keyframe_camera,
+                         tracked.outcome.tracking.vouched);
   }
-  for (int level = 0; level < tracked.pyramid.levels(); ++level) {
+  keyframe->patches.push_back(std::move(finest));
+  for (int level = 1; level < tracked.pyramid.levels(); ++level) {
     keyframe->patches.push_back(patches_of(*keyframe, level));
   }
   keyframe->cloud_camera = colored(returns, hidden, frame);

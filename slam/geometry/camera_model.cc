@@ -39,20 +39,12 @@ CameraModel CameraModel::at_level(int level) const {
   return result;
 }
 
-Eigen::Vector2d CameraModel::distort(const Eigen::Vector2d& n) const {
-  const CameraIntrinsics& c = intrinsics_;
-  const double r2 = n.squaredNorm();
-  const double radial = 1.0 + r2 * (c.k1 + r2 * (c.k2 + r2 * c.k3));
-  const double xy = n.x() * n.y();
-  return {n.x() * radial + 2.0 * c.p1 * xy + c.p2 * (r2 + 2.0 * n.x() * n.x()),
-          n.y() * radial + c.p1 * (r2 + 2.0 * n.y() * n.y()) + 2.0 * c.p2 * xy};
-}
-
 bool CameraModel::project(const Eigen::Vector3d& p_camera, Eigen::Vector2d& pixel) const {
   if (!(p_camera.z() > kMinDepth)) return false;
   const Eigen::Vector2d normalized = p_camera.head<2>() / p_camera.z();
   if (!(normalized.squaredNorm() <= max_radius2_)) return false;  // NaN as well
-  const Eigen::Vector2d d = intrinsics_.distorted() ? distort(normalized) : normalized;
+  Eigen::Vector2d d = normalized;
+  if (intrinsics_.distorted()) distort(normalized.x(), normalized.y(), d.x(), d.y());
   pixel = {intrinsics_.fx * d.x() + intrinsics_.cx, intrinsics_.fy * d.y() + intrinsics_.cy};
   return true;
 }
@@ -64,7 +56,9 @@ Eigen::Vector3d CameraModel::unproject(const Eigen::Vector2d& pixel) const {
   if (c.distorted()) {
     for (int i = 0; i < 20; ++i) {
       const Eigen::Matrix2d J = d_pixel_d_normalized(n);
-      const Eigen::Vector2d error = distort(n) - target;
+      Eigen::Vector2d error;
+      distort(n.x(), n.y(), error.x(), error.y());
+      error -= target;
       const Eigen::Vector2d step =
           J.inverse() * Eigen::Vector2d(c.fx * error.x(), c.fy * error.y());
       n -= step;

@@ -24,6 +24,17 @@ class CameraModel {
   // d_pixel / d_(normalised coordinates), for the Jacobian of the photometric residual.
   Eigen::Matrix2d d_pixel_d_normalized(const Eigen::Vector2d& normalized) const;
 
+  // What the lens makes of normalised coordinates; Number is a number or an array of them.
+  template <typename Number>
+  void distort(const Number& x, const Number& y, Number& x_distorted, Number& y_distorted) const {
+    const CameraIntrinsics& c = intrinsics_;
+    const Number r2 = x * x + y * y;
+    const Number radial = 1.0 + r2 * (c.k1 + r2 * (c.k2 + r2 * c.k3));
+    const Number xy = x * y;
+    x_distorted = x * radial + 2.0 * c.p1 * xy + c.p2 * (r2 + 2.0 * x * x);
+    y_distorted = y * radial + c.p1 * (r2 + 2.0 * y * y) + 2.0 * c.p2 * xy;
+  }
+
   bool contains(const Eigen::Vector2d& pixel, double border_px) const;
 
   const CameraIntrinsics& intrinsics() const { return intrinsics_; }
@@ -31,8 +42,6 @@ class CameraModel {
   double max_radius2() const { return max_radius2_; }
 
  private:
-  Eigen::Vector2d distort(const Eigen::Vector2d& normalized) const;
-
   CameraIntrinsics intrinsics_;
   double max_radius2_;
 };

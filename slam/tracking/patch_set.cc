@@ -9,23 +9,16 @@
 namespace sparsight {
 namespace {
 
-struct Entry {
-  Eigen::Vector3f p_camera = Eigen::Vector3f::UnitZ();
-  float intensity = 0.0F;
-  float weight = 0.0F;
-};
+// One element per pixel of the pattern.
+using Octet = Eigen::Array<double, static_cast<int>(kPatternSize), 1>;
+using FloatOctet = Eigen::Array<float, static_cast<int>(kPatternSize), 1>;
 
-// Grey value, and the weight of its gradient.
-void look(const GreyImage& image, float u, float v, double gradient_weight_constant, Entry& entry) {
-  if (gradient_weight_constant <= 0.0) {
-    entry.intensity = sample_value(image, u, v);
-    entry.weight = 1.0F;
-    return;
+Octet offsets(int PatternOffset::*along) {
+  Octet result;
+  for (std::size_t k = 0; k < kPatternSize; ++k) {
+    result(static_cast<Eigen::Index>(k)) = kPattern[k].*along;
   }
-  const ImageSample s = sample(image, u, v);
-  const auto c2 = static_cast<float>(gradient_weight_constant * gradient_weight_constant);
-  entry.intensity = s.value;
-  entry.weight = c2 / (c2 + s.du * s.du + s.dv * s.dv);
+  return result;
 }
 
 // Of entries that count for nothing.
@@ -39,14 +32,6 @@ PatchSet empty_set(std::size_t patches) {
   }
   set.z.assign(entries, 1.0F);
   return set;
-}
-
-void put(PatchSet& set, std::size_t at, const Entry& entry) {
-  set.x[at] = entry.p_camera.x();
-  set.y[at] = entry.p_camera.y();
-  set.z[at] = entry.p_camera.z();
-  set.intensity[at] = entry.intensity;
-  set.weight[at] = entry.weight;
 }
 
 // A point at one level: where the pattern is centred, and how rays turn with pixels there.
@@ -65,34 +50,54 @@ std::optional<Centre> centre_of(const SelectedPoint& point, const CameraModel& c
   return centre;
 }
 
-// Normalised coordinates of a pixel beside the centre: by the derivative there, and a step of
-// Newton's method with the same, which leaves less than a thousandth of a pixel.
-std::optional<Eigen::Vector2d> ray_beside(const Centre& centre, const CameraModel& camera,
-                                          const Eigen::Vector2d& offset) {
-  const Eigen::Vector2d near = centre.normalized + centre.d_normalized_d_pixel * offset;
-  Eigen::Vector2d pixel;
-  if (!camera.project(near.homogeneous(), pixel)) return std::nullopt;
-  return near - centre.d_normalized_d_pixel * (pixel - centre.pixel - offset);
+// The pattern around a point at one level: pixels, and the normalised coordinates of their rays.
+struct Pattern {
+  Octet u, v;
+  Octet x, y;
+};
+
+// Rays by the derivative at the centre, and a step of Newton's method with the same, which leaves
+// less than a thousandth of a pixel.
+Pattern pattern_around(const Centre& centre, const CameraModel& camera) {
+  static const Octet kU = offsets(&PatternOffset::u);
+  static const Octet kV = offsets(&PatternOffset::v);
+  const Eigen::Matrix2d& J = centre.d_normalized_d_pixel;
+  Pattern p{.u = centre.pixel.x() + kU,
+            .v = centre.pixel.y() + kV,
+            .x = centre.normalized.x() + J(0, 0) * kU + J(0, 1) * kV,
+            .y = centre.normalized.y() + J(1, 0) * kU + J(1, 1) * kV};
+  const CameraIntrinsics& c = camera.intrinsics();
+  if (!c.distorted()) return p;
+  Octet u;
+  Octet v;
+  camera.distort(p.x, p.y, u, v);
+  u = c.fx * u + c.cx - p.u;
+  v = c.fy * v + c.cy - p.v;
+  p.x -= J(0, 0) * u + J(0, 1) * v;
+  p.y -= J(1, 0) * u + J(1, 1) * v;
+  return p;
 }
 
-// The pattern pixel's own point: on its ray, at the depth of the surface there.
-Entry entry_at(const GreyImage& image, const CameraModel& camera, const SelectedPoint& point,
-               const Centre& centre, const Eigen::Vector2d& offset, double fine_pixels_per_pixel,
-               double gradient_weight_constant) {
-  Entry entry;
-  const float inverse_depth =
-      1.0F / point.p_camera.z() +
-      point.inverse_depth_slope.dot((fine_pixels_per_pixel * offset).cast<float>());
-  const Eigen::Vector2d pixel = centre.pixel + offset;
-  const auto u = static_cast<float>(pixel.x());
-  const auto v = static_cast<float>(pixel.y());
-  if (!(inverse_depth > 0.0F) || !can_sample(image.width, image.height, u, v)) return entry;
-  const std::optional<Eigen::Vector2d> ray = ray_beside(centre, camera, offset);
-  if (!ray) return entry;
-  entry.p_camera = ray->homogeneous().cast<float>() / inverse_depth;
-  look(image, u, v, gradient_weight_constant, entry);
-  entry.weight *= point.weight;
-  return entry;
+// Each pattern pixel's own point: on its ray, at the depth of the surface there.
+void put(PatchSet& set, std::size_t first, const Pattern& pattern,
+         const FloatOctet& inverse_depth) {
+  const FloatOctet z = (inverse_depth > 0.0F).select(inverse_depth.inverse(), 1.0F);
+  Eigen::Map<FloatOctet>(&set.x[first]) = pattern.x.cast<float>() * z;
+  Eigen::Map<FloatOctet>(&set.y[first]) = pattern.y.cast<float>() * z;
+  Eigen::Map<FloatOctet>(&set.z[first]) = z;
+}
+
+// Grey value, and the weight of its gradient.
+void look(const GreyImage& image, float u, float v, double gradient_weight_constant,
+          float& intensity, float& weight) {
+  if (gradient_weight_constant <= 0.0) {
+    intensity = sample_value(image, u, v);
+    return;
+  }
+  const ImageSample s = sample(image, u, v);
+  const auto c2 = static_cast<float>(gradient_weight_constant * gradient_weight_constant);
+  intensity = s.value;
+  weight *= c2 / (c2 + s.du * s.du + s.dv * s.dv);
 }
 
 }  // namespace
@@ -101,15 +106,26 @@ PatchSet make_patches(const ImagePyramid& pyramid, int level, const CameraModel&
                       const std::vector<SelectedPoint>& points, double gradient_weight_constant) {
   const CameraModel level_camera = camera.at_level(level);
   const double fine_pixels_per_pixel = std::exp2(level);
+  const GreyImage& image = pyramid.level(level);
   PatchSet set = empty_set(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::optional<Centre> centre = centre_of(points[i], level_camera);
     if (!centre) continue;
+    const Pattern pattern = pattern_around(*centre, level_camera);
+    const Eigen::Vector2f slope =
+        static_cast<float>(fine_pixels_per_pixel) * points[i].inverse_depth_slope;
+    const FloatOctet inverse_depth = 1.0F / points[i].p_camera.z() +
+                                     slope.x() * (pattern.u - centre->pixel.x()).cast<float>() +
+                                     slope.y() * (pattern.v - centre->pixel.y()).cast<float>();
+    put(set, i * kPatternSize, pattern, inverse_depth);
     for (std::size_t k = 0; k < kPatternSize; ++k) {
-      const Eigen::Vector2d offset(kPattern[k].u, kPattern[k].v);
-      put(set, i * kPatternSize + k,
-          entry_at(pyramid.level(level), level_camera, points[i], *centre, offset,
-                   fine_pixels_per_pixel, gradient_weight_constant));
+      const auto pixel = static_cast<Eigen::Index>(k);
+      const auto u = static_cast<float>(pattern.u(pixel));
+      const auto v = static_cast<float>(pattern.v(pixel));
+      if (!(inverse_depth(pixel) > 0.0F) || !can_sample(image.width, image.height, u, v)) continue;
+      const std::size_t entry = i * kPatternSize + k;
+      set.weight[entry] = points[i].weight;
+      look(image, u, v, gradient_weight_constant, set.intensity[entry], set.weight[entry]);
     }
   }
   return set;

@@ -13,7 +13,7 @@ constexpr double kMissing = 0.2;  // correlation
 
 }  // namespace
 
-void weigh_down_strangers(std::vector<SelectedPoint>& points, const PatchSet& patches,
+void weigh_down_strangers(std::vector<SelectedPoint>& points, PatchSet& patches,
                           const GreyImage& earlier, const CameraModel& camera,
                           const Eigen::Isometry3d& T_earlier_keyframe, bool in_traffic) {
   Linearization linearization;
@@ -22,6 +22,9 @@ void weigh_down_strangers(std::vector<SelectedPoint>& points, const PatchSet& pa
   for (const std::size_t stranger :
        missing_patches(patches, linearization, same, in_traffic ? kFoundCorrelation : kMissing)) {
     points[stranger].weight *= kStrangersWeight;
+    for (std::size_t pixel = 0; pixel < kPatternSize; ++pixel) {
+      patches.weight[stranger * kPatternSize + pixel] *= kStrangersWeight;
+    }
   }
 }
 

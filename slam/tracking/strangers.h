@@ -16,8 +16,9 @@ namespace sparsight {
 // been wrong, so that the scene looked strange, the scene still counts.
 //
 // in_traffic: it took the LiDAR to tell the pose; then what is not surely found is a stranger, too.
-// `patches` of the points, and `earlier`, at the finest level; T_earlier_keyframe as tracked.
-void weigh_down_strangers(std::vector<SelectedPoint>& points, const PatchSet& patches,
+// `patches` of the points, whose weights follow, and `earlier`, at the finest level;
+// T_earlier_keyframe as tracked.
+void weigh_down_strangers(std::vector<SelectedPoint>& points, PatchSet& patches,
                           const GreyImage& earlier, const CameraModel& camera,
                           const Eigen::Isometry3d& T_earlier_keyframe, bool in_traffic);
 

@@ -28,8 +28,12 @@ class StrangersTest : public testing::Test {
                                      const Eigen::Isometry3d& T_earlier_keyframe,
                                      bool in_traffic = false) const {
     std::vector<SelectedPoint> points = keyframe_.points;
-    weigh_down_strangers(points, keyframe_.patches.front(), earlier, room_.camera(),
-                         T_earlier_keyframe, in_traffic);
+    PatchSet patches = keyframe_.patches.front();
+    weigh_down_strangers(points, patches, earlier, room_.camera(), T_earlier_keyframe, in_traffic);
+    for (std::size_t i = 0; i < patches.patches * kPatternSize; ++i) {
+      EXPECT_EQ(patches.weight[i],
+                keyframe_.patches.front().weight[i] * points[i / kPatternSize].weight);
+    }
     return points;
   }
   // Of the points that the earlier image shows left (right) of its middle.
