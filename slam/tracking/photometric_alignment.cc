@@ -96,6 +96,7 @@ class LevelAlignment {
  private:
   void evaluate(const Alignment& at, Linearization& into) const {
     linearize(patches_, image_, camera_, at.T_camera_keyframe, at.brightness, into);
+    if (photometry_.patch_weights) sum_patches(into);
   }
 
   // The scale is estimated in each iteration, after eq. (5).

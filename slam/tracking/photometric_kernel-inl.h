@@ -274,47 +274,87 @@ void patch_log_sums(const Linearization& l, double dof, double scale, PatchLaneS
   }
 }
 
-// One block into the 44 running sums. Rows 6 and 7 are d_r / d_gain = -I_m and d_r / d_offset = -1.
-HWY_INLINE void accumulate_block(const PatchSet& patches, const Linearization& l,
-                                 const float* weights, std::size_t at, float dof,
-                                 float inverse_sigma2, VF* HWY_RESTRICT sums) {
+// Of eq. (5), times the entries' own.
+void robust_weights(const Linearization& l, float dof, float inverse_sigma2,
+                    std::vector<float>& out) {
   const F f;
-  constexpr int kSize = NormalEquations::kSize;
-  const VF r = hn::LoadU(f, l.residual.data() + at);
-  const VF w = total_weight(weights, at, r, dof, inverse_sigma2);
-  VF J[kSize];
-#pragma GCC unroll 8
-  for (int k = 0; k < 6; ++k) J[k] = hn::LoadU(f, l.J[k].data() + at);
-  J[6] = hn::Neg(hn::LoadU(f, patches.intensity.data() + at));
-  J[7] = hn::Set(f, -1.0F);
-  int next = 0;
-#pragma GCC unroll 8
-  for (int row = 0; row < kSize; ++row) {
-    const VF wj = hn::Mul(w, J[row]);
-#pragma GCC unroll 8
-    for (int column = row; column < kSize; ++column) {
-      sums[next] = hn::MulAdd(wj, J[column], sums[next]);
-      ++next;
-    }
-    sums[kNormalSums - kSize + row] = hn::MulAdd(wj, r, sums[kNormalSums - kSize + row]);
+  const std::size_t step = hn::Lanes(f);
+  for (std::size_t at = 0; at < l.residual.size(); at += step) {
+    const VF r = hn::LoadU(f, l.residual.data() + at);
+    hn::StoreU(total_weight(l.weight.data(), at, r, dof, inverse_sigma2), f, out.data() + at);
   }
 }
 
-void normal_equation_sums(const PatchSet& patches, const Linearization& l, const float* weights,
-                          float dof, float inverse_sigma2, NormalSums& out) {
+// One row of the normal equations: columns kRow to 7 of the upper triangle, then b. Columns 6 and 7
+// are d_r / d_gain = -I_m and d_r / d_offset = -1.
+template <int kRow>
+struct NormalRow {
+  static constexpr int kSize = NormalEquations::kSize;
+  static constexpr int kSums = kSize - kRow + 1;
+  // Where they stand in NormalSums.
+  static constexpr int kFirst = kRow * kSize - kRow * (kRow - 1) / 2;
+  static constexpr int kRight = static_cast<int>(kNormalSums) - kSize + kRow;
+  VF sums[kSums];
+
+  HWY_INLINE void clear() {
+#pragma GCC unroll 16
+    for (int k = 0; k < kSums; ++k) sums[k] = hn::Zero(F());
+  }
+
+  HWY_INLINE void add(const PatchSet& patches, const Linearization& l, std::size_t at, VF w, VF r) {
+    const F f;
+    const VF minus_intensity = hn::Neg(hn::LoadU(f, patches.intensity.data() + at));
+    VF own = hn::Neg(w);
+    if constexpr (kRow < 6) own = hn::Mul(w, hn::LoadU(f, l.J[kRow].data() + at));
+    if constexpr (kRow == 6) own = hn::Mul(w, minus_intensity);
+#pragma GCC unroll 16
+    for (int column = kRow; column < 6; ++column) {
+      VF& sum = sums[column - kRow];
+      sum = hn::MulAdd(own, hn::LoadU(f, l.J[static_cast<std::size_t>(column)].data() + at), sum);
+    }
+    if constexpr (kRow <= 6) sums[6 - kRow] = hn::MulAdd(own, minus_intensity, sums[6 - kRow]);
+    sums[7 - kRow] = hn::Sub(sums[7 - kRow], own);
+    sums[8 - kRow] = hn::MulAdd(own, r, sums[8 - kRow]);
+  }
+
+  HWY_INLINE void store(std::size_t lane, NormalSums& out) const {
+    const F f;
+#pragma GCC unroll 16
+    for (int k = 0; k < kSums - 1; ++k) {
+      hn::StoreU(sums[k], f, out[static_cast<std::size_t>(kFirst + k)].data() + lane);
+    }
+    hn::StoreU(sums[kSums - 1], f, out[static_cast<std::size_t>(kRight)].data() + lane);
+  }
+};
+
+// Two rows at a time, eleven sums: more would not stay in registers.
+template <int kRow>
+void normal_row_pair(const PatchSet& patches, const Linearization& l,
+                     const std::vector<float>& weights, NormalSums& out) {
   const F f;
   const std::size_t step = hn::Lanes(f);
   for (std::size_t lane = 0; lane < kSumLanes; lane += step) {
-    // Every loop over the sums is unrolled, or the compiler keeps them in memory.
-    VF sums[kNormalSums];
-#pragma GCC unroll 64
-    for (std::size_t k = 0; k < kNormalSums; ++k) sums[k] = hn::Zero(f);
+    NormalRow<kRow> longer;
+    NormalRow<NormalEquations::kSize - 1 - kRow> shorter;
+    longer.clear();
+    shorter.clear();
     for (std::size_t at = lane; at < l.residual.size(); at += kSumLanes) {
-      accumulate_block(patches, l, weights, at, dof, inverse_sigma2, sums);
+      const VF w = hn::LoadU(f, weights.data() + at);
+      const VF r = hn::LoadU(f, l.residual.data() + at);
+      longer.add(patches, l, at, w, r);
+      shorter.add(patches, l, at, w, r);
     }
-#pragma GCC unroll 64
-    for (std::size_t k = 0; k < kNormalSums; ++k) hn::StoreU(sums[k], f, out[k].data() + lane);
+    longer.store(lane, out);
+    shorter.store(lane, out);
   }
+}
+
+void normal_equation_sums(const PatchSet& patches, const Linearization& l,
+                          const std::vector<float>& weights, NormalSums& out) {
+  normal_row_pair<0>(patches, l, weights, out);
+  normal_row_pair<1>(patches, l, weights, out);
+  normal_row_pair<2>(patches, l, weights, out);
+  normal_row_pair<3>(patches, l, weights, out);
 }
 
 void column_sums(const std::vector<float>& values, LaneSums& out) {

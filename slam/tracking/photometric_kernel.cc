@@ -22,16 +22,16 @@ HWY_EXPORT(linearize_entries);
 HWY_EXPORT(weighted_square_sums);
 HWY_EXPORT(log_likelihood_sums);
 HWY_EXPORT(patch_log_sums);
+HWY_EXPORT(robust_weights);
 HWY_EXPORT(normal_equation_sums);
 HWY_EXPORT(column_sums);
 
 namespace {
 
-template <typename Lanes>
-double total(const Lanes& lanes) {
-  double sum = 0.0;
-  for (const auto lane : lanes) sum += static_cast<double>(lane);
-  return sum;
+template <typename Number, std::size_t kLanes>
+double total(const std::array<Number, kLanes>& lanes) {
+  using Lanes = Eigen::Array<Number, static_cast<int>(kLanes), 1>;
+  return Eigen::Map<const Lanes>(lanes.data()).template cast<double>().sum();
 }
 
 // One column per patch.
@@ -110,7 +110,6 @@ void linearize(const PatchSet& patches, const GreyImage& image, const CameraMode
   out.resize(patches.entries());
   HWY_DYNAMIC_DISPATCH(linearize_entries)
   (patches, projection_parameters(image, camera, T_camera_keyframe, brightness), out);
-  sum_patches(out);
 }
 
 double estimate_sigma(const Linearization& linearization, double student_t_dof,
@@ -163,19 +162,16 @@ double visible_share(const PatchSet& patches, const Linearization& linearization
 
 NormalEquations accumulate(const PatchSet& patches, const Linearization& linearization,
                            double student_t_dof, double sigma) {
-  NormalSums sums;
-  HWY_DYNAMIC_DISPATCH(normal_equation_sums)
-  (patches, linearization, linearization.weight.data(), static_cast<float>(student_t_dof),
-   static_cast<float>(1.0 / (sigma * sigma)), sums);
-  return normal_equations_of(sums);
+  HWY_DYNAMIC_DISPATCH(robust_weights)
+  (linearization, static_cast<float>(student_t_dof), static_cast<float>(1.0 / (sigma * sigma)),
+   linearization.robust_weight);
+  return accumulate_weighted(patches, linearization, linearization.robust_weight);
 }
 
 NormalEquations accumulate_weighted(const PatchSet& patches, const Linearization& linearization,
                                     const std::vector<float>& weights) {
-  constexpr float kGaussian = 1e9F;  // degrees of freedom at which eq. (5) is 1
   NormalSums sums;
-  HWY_DYNAMIC_DISPATCH(normal_equation_sums)
-  (patches, linearization, weights.data(), kGaussian, 0.0F, sums);
+  HWY_DYNAMIC_DISPATCH(normal_equation_sums)(patches, linearization, weights, sums);
   return normal_equations_of(sums);
 }
 

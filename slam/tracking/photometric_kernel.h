@@ -23,7 +23,8 @@ struct Linearization {
   std::vector<float> residual;          // grey levels
   std::vector<float> weight;            // PatchSet::weight where inside the image, else 0
   std::array<std::vector<float>, 6> J;  // grey levels per rad, per metre
-  // Of each patch, sum w r^2 and sum w; zeros up to a multiple of kPatchLanes.
+  // Of each patch, sum w r^2 and sum w, once sum_patches() was called; zeros up to a multiple of
+  // kPatchLanes.
   std::vector<double> patch_squares;
   std::vector<double> patch_pixels;
   static constexpr std::size_t kPatchLanes = 8;
@@ -52,7 +53,7 @@ void linearize(const PatchSet& patches, const GreyImage& image, const CameraMode
                const Eigen::Isometry3d& T_camera_keyframe, const Brightness& brightness,
                Linearization& out);
 
-// The sums over patches, where residuals or weights were set by other means.
+// Of what is weighed by patches; whoever weighs each pixel by itself does not need it.
 void sum_patches(Linearization& linearization);
 
 // sigma of eq. (5): the fixed point of sigma^2 = sum w(r) r^2 / n, started at sigma_start (Kerl et

@@ -14,7 +14,7 @@ namespace sparsight {
 //     w = (nu + n) / (nu + sum r^2 / sigma^2)
 // for the n pixels of the patch. A patch on a moving car disagrees as a whole, and loses its weight
 // as a whole, while eight pixels taken one by one would each keep a part (Lange, Little and Taylor
-// 1989, Sec. 2, for the distribution and its estimation).
+// 1989, Sec. 2, for the distribution and its estimation). Precondition: sum_patches().
 //
 // Each mirrors the function of the same name in photometric_kernel.h.
 double estimate_sigma(const Linearization& linearization, const PhotometryConfig& photometry,
