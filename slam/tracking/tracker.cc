@@ -39,14 +39,12 @@ class VisitedPlaces {
   VisitedPlaces(const CameraModel& camera, double mean_inverse_depth)
       : focal_px_(camera.intrinsics().fx), mean_inverse_depth_(mean_inverse_depth) {}
 
-  // False if the pose is one of them.
-  bool add(const Eigen::Isometry3d& T_camera_keyframe) {
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (distance_px(places_[i], T_camera_keyframe) < kSamePlacePx) return false;
-    }
-    places_[count_++] = T_camera_keyframe;
-    return true;
+  bool know(const Eigen::Isometry3d& T_camera_keyframe) const {
+    return std::any_of(places_.begin(), places_.begin() + count_, [&](const auto& place) {
+      return distance_px(place, T_camera_keyframe) < kSamePlacePx;
+    });
   }
+  void add(const Eigen::Isometry3d& T_camera_keyframe) { places_[count_++] = T_camera_keyframe; }
 
  private:
   // Upper bound of how far apart the two see a point at mean depth.
@@ -243,7 +241,8 @@ TrackingResult Tracker::from_everywhere(const TrackingTarget& keyframe, const Im
                                         const TrackingStart& start, int coarsest,
                                         const TrackingResult& direct) {
   const std::vector<RankedStart>& ranked = ranked_starts(keyframe, image, start, coarsest);
-  // Many starts meet in one place, most often where the direct attempt has ended.
+  // Many starts meet in one place, most often where the direct attempt has ended; ranking has shown
+  // nearly where.
   VisitedPlaces places(cameras_[static_cast<std::size_t>(coarsest)], keyframe.mean_inverse_depth);
   if (direct.ok()) places.add(direct.T_keyframe_camera.inverse());
   TrackingResult best;
@@ -251,9 +250,11 @@ TrackingResult Tracker::from_everywhere(const TrackingTarget& keyframe, const Im
   for (std::size_t i = 0; i < std::min(ranked.size(), kExamined) && followed < kFollowed; ++i) {
     if (ranked[i].found_share < ranked.front().found_share - kHopeless) break;
     if (start.search_budget && !start.search_budget->allows(SearchBudget::Step::kFollow)) break;
+    if (places.know(ranked[i].at.T_camera_keyframe)) continue;
     const Alignment coarse =
         refine(keyframe, image, ranked[i].at, coarsest, coarsest, per_pixel(photometry_));
-    if (!places.add(coarse.T_camera_keyframe)) continue;
+    if (places.know(coarse.T_camera_keyframe)) continue;
+    places.add(coarse.T_camera_keyframe);
     ++followed;
     const TrackingResult result =
         verdict(keyframe, descend(keyframe, image, coarse, coarsest - 1, start.finest_level), start,
