@@ -32,26 +32,34 @@ struct Scenario {
   Linearization linearization;
 };
 
-void track_with(benchmark::State& state, double error_px) {
+template <typename Tracked>
+void track_by(benchmark::State& state, const Tracked& tracked) {
   Scenario s(state);
-  s.start.error_px = error_px;
+  s.start.error_px = 8.0;
   TrackerConfig config;
   config.automatic_top_level = true;
   Tracker tracker(s.camera, config, s.drive.photometry);
   TrackingResult result;
-  for (auto _ : state) result = tracker.track(*s.keyframe, s.next, s.start);
+  for (auto _ : state) result = tracked(tracker, s);
   if (!result.ok()) state.SkipWithError("tracking failed: nothing was measured");
   state.counters["points"] = result.points_used;
   state.counters["starts"] = result.attempts;
 }
-void track(benchmark::State& state) { track_with(state, 8.0); }
+void track(benchmark::State& state) {
+  track_by(state, [](Tracker& tracker, const Scenario& s) {
+    return tracker.track(*s.keyframe, s.next, s.start);
+  });
+}
 BENCHMARK(track)->Apply(each_drive);
 
-// The first frame after the start, or after a failure: every starting motion is considered.
-void track_without_motion_model(benchmark::State& state) {
-  track_with(state, std::numeric_limits<double>::infinity());
+// What a first frame adds that finds too little at once, and one after a failure: every starting
+// motion is considered.
+void search_all_starting_motions(benchmark::State& state) {
+  track_by(state, [](Tracker& tracker, const Scenario& s) {
+    return tracker.search(*s.keyframe, s.next, s.start, {});
+  });
 }
-BENCHMARK(track_without_motion_model)->Apply(each_drive);
+BENCHMARK(search_all_starting_motions)->Apply(each_drive);
 
 void linearize_patches(benchmark::State& state) {
   Scenario s(state);
@@ -91,6 +99,7 @@ void weigh_per_patch(benchmark::State& state) {
   PhotometryConfig photometry = s.drive.photometry;
   photometry.patch_weights = true;
   for (auto _ : state) {
+    sum_patches(s.linearization);
     const double sigma = estimate_sigma(s.linearization, photometry, 5.0);
     benchmark::DoNotOptimize(robust_cost(s.linearization, photometry, sigma));
     benchmark::DoNotOptimize(accumulate(s.patches(), s.linearization, photometry, sigma));
