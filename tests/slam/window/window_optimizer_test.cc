@@ -56,6 +56,49 @@ Vector6d disturbance(int i) {
 // The energy as it stands: no step is taken.
 constexpr WindowConfig kOnlyLook{.size = 10, .max_iterations = 0};
 
+CameraModel with_k1(const SineRoom& room, double k1) {
+  CameraIntrinsics c = room.intrinsics;
+  c.k1 += k1;
+  return CameraModel(c);
+}
+
+// The newest was made through the camera already; tracking holds its patches.
+TEST(WindowOptimizer, SeesEarlierKeyframesThroughAnotherCamera) {
+  const SineRoom room;
+  const CameraModel other = with_k1(room, 0.02);
+  Window window(room, 3);
+  const PatchSet newest = window.keyframes[2]->patches.front();
+  window.optimizer.set_camera(other);
+  for (const std::size_t earlier : {0U, 1U}) {
+    const Keyframe& keyframe = *window.keyframes[earlier];
+    const PatchSet expected = make_patches(keyframe.pyramid, 0, other, keyframe.points, 0.0);
+    EXPECT_EQ(keyframe.patches.front().x, expected.x);
+    EXPECT_EQ(keyframe.patches.front().intensity, expected.intensity);
+  }
+  EXPECT_EQ(window.keyframes[2]->patches.front().x, newest.x);
+}
+
+TEST(WindowOptimizer, ComparesPairsAnewWhereTheCameraHasChangedByMuchOrOften) {
+  const SineRoom room;
+  Window window(room, 3);
+  const double energy = window.optimizer.optimize().final_energy;
+  const auto energy_with = [&](double k1) {
+    window.optimizer.set_camera(with_k1(room, k1));
+    return window.optimizer.optimize(0).initial_energy;
+  };
+  EXPECT_EQ(energy_with(1e-4), energy);
+  EXPECT_GT(energy_with(0.2), 1.05 * energy);
+  double last = energy_with(0.2);
+  int looks = 0;
+  for (double k1 = 0.2; k1 > 0.0; k1 -= 0.005) {
+    const double now = energy_with(k1);
+    looks += now != last;
+    last = now;
+  }
+  EXPECT_GT(looks, 3) << "small changes add up";
+  EXPECT_NEAR(last, energy, 0.02 * energy);
+}
+
 TEST(WindowOptimizer, BringsDisturbedKeyframesBack) {
   const SineRoom room;
   Window window(room, 4);
