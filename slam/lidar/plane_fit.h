@@ -8,10 +8,12 @@ namespace sparsight {
 class PointMoments {
  public:
   void add(const Eigen::Vector3f& p) {
-    const double x = p.x();
-    const double y = p.y();
-    const double z = p.z();
-    sums_ += (Sums() << 1.0, x, y, z, x * x, x * y, x * z, y * y, y * z, z * z).finished();
+    const Eigen::Vector3d q = p.cast<double>();
+    sums_(0) += 1.0;
+    sums_.segment<3>(1) += q;
+    sums_.segment<3>(4) += q.x() * q;
+    sums_.segment<2>(7) += q.y() * q.tail<2>();
+    sums_(9) += q.z() * q.z();
   }
   void add(const PointMoments& other) { sums_ += other.sums_; }
 

@@ -21,9 +21,9 @@ constexpr double kThickest = 0.2;          // metres, rms: hedges are planes, tr
 constexpr double kWidthOfThickness = 3.0;  // a plane is wider than it is thick, both ways
 constexpr double kLeastThickness = 0.02;
 
-std::size_t column_of(const Eigen::Vector3f& p) {
+int column_of(const Eigen::Vector3f& p) {
   const float turn = arctangent(p.y(), p.x()) * static_cast<float>(0.5 / M_PI) + 0.5F;
-  return std::min<std::size_t>(kColumns - 1, static_cast<std::size_t>(turn * kColumns));
+  return std::min(kColumns - 1, static_cast<int>(turn * kColumns));
 }
 
 // The plane of returns; no normal if they do not lie on one.
@@ -56,10 +56,14 @@ constexpr std::array<Block, 7> kBlocks{{{-1, 1, -1, 1},
 class Bins {
  public:
   Bins(std::span<const SweepPoint> points, const SweepRows& rows)
-      : rows_(rows.count()), bins_(static_cast<std::size_t>(rows_) * kColumns) {
+      : rows_(rows.count()), bins_(static_cast<std::size_t>(rows_) * kStride) {
     for (const SweepPoint& point : points) {
-      const auto row = static_cast<std::size_t>(rows.of_ring(point.ring));
-      bins_[row * kColumns + column_of(point.p_lidar)].add(point.p_lidar);
+      bins_[index(rows.of_ring(point.ring), column_of(point.p_lidar))].add(point.p_lidar);
+    }
+    // A row goes all around: each end has the other's neighbour beside it.
+    for (int row = 0; row < rows_; ++row) {
+      bins_[index(row, -1)] = bins_[index(row, kColumns - 1)];
+      bins_[index(row, kColumns)] = bins_[index(row, 0)];
     }
   }
 
@@ -73,10 +77,10 @@ class Bins {
   }
 
  private:
-  // A row goes all around.
+  static constexpr std::size_t kStride = kColumns + 2;
+
   static std::size_t index(int row, int column) {
-    const int around = (column + kColumns) % kColumns;
-    return static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(around);
+    return static_cast<std::size_t>(row) * kStride + static_cast<std::size_t>(column + 1);
   }
 
   PointMoments moments(const Block& block, int row, int column) const {
@@ -115,7 +119,7 @@ const SweepSurface::Plane* SweepSurface::at(const Eigen::Vector3f& p_lidar) cons
   const int elevation = std::clamp(static_cast<int>(up) + kElevations / 2, 0, kElevations - 1);
   const int row = row_at_[static_cast<std::size_t>(elevation)];
   if (row < 0) return nullptr;
-  const Plane& plane = planes_[static_cast<std::size_t>(row) * kColumns + column_of(p_lidar)];
+  const Plane& plane = planes_[static_cast<std::size_t>(row * kColumns + column_of(p_lidar))];
   return plane.normal.isZero() ? nullptr : &plane;
 }
 

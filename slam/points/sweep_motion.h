@@ -35,7 +35,7 @@ class SweepMotion {
     for (std::size_t i = 0; i < slots_; ++i) {
       const double seconds = 1e-9 * (first_ns_ + (static_cast<double>(i) + 0.5) * slot_ns_);
       const Eigen::Isometry3d T = motion(seconds);
-      table_[i] = T.matrix().topRows<3>().template cast<float>();
+      table_[i] = T.matrix().template cast<float>();
     }
   }
 
@@ -45,14 +45,18 @@ class SweepMotion {
       const double at = (static_cast<double>(r.from_exposure_ns) - first_ns_) / slot_ns_;
       slot = static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(slots_ - 1)));
     }
-    return table_[slot].leftCols<3>() * r.p_lidar + table_[slot].col(3);
+    // Whole columns of four, which are one register each.
+    const Eigen::Matrix4f& T = table_[slot];
+    const Eigen::Vector3f& p = r.p_lidar;
+    const Eigen::Vector4f q = T.col(0) * p.x() + (T.col(1) * p.y() + T.col(2) * p.z()) + T.col(3);
+    return q.head<3>();
   }
 
  private:
   std::int32_t first_ns_;
   std::size_t slots_;
   double slot_ns_;
-  std::array<Eigen::Matrix<float, 3, 4>, kMostSlots> table_;
+  std::array<Eigen::Matrix4f, kMostSlots> table_;
 };
 
 }  // namespace sparsight
