@@ -73,7 +73,7 @@ class LevelAlignment {
   // Linearises at the pose and estimates sigma there.
   Alignment assess(const Alignment& at) {
     evaluate(at, space_.current);
-    return measured(at);
+    return measured(at, visible_share(patches_, space_.current));
   }
 
   NormalEquations equations(const Alignment& at) const {
@@ -85,11 +85,11 @@ class LevelAlignment {
     const Alignment to = stepped(at, step);
     evaluate(to, space_.candidate);
     const double cost = robust_cost(space_.candidate, photometry_, at.sigma_grey);
-    if (!(cost < at.cost) || visible_share(patches_, space_.candidate) < kLeastVisibleShare) {
-      return false;
-    }
+    if (!(cost < at.cost)) return false;
+    const double visible = visible_share(patches_, space_.candidate);
+    if (visible < kLeastVisibleShare) return false;
     std::swap(space_.current, space_.candidate);
-    at = measured(to);
+    at = measured(to, visible);
     return true;
   }
 
@@ -100,10 +100,10 @@ class LevelAlignment {
   }
 
   // The scale is estimated in each iteration, after eq. (5).
-  Alignment measured(Alignment at) const {
+  Alignment measured(Alignment at, double visible_share) const {
     at.sigma_grey = estimate_sigma(space_.current, photometry_, at.sigma_grey);
     at.cost = robust_cost(space_.current, photometry_, at.sigma_grey);
-    at.visible_share = visible_share(patches_, space_.current);
+    at.visible_share = visible_share;
     return at;
   }
 
@@ -128,20 +128,25 @@ Alignment align(const PatchSet& patches, const GreyImage& image, const CameraMod
   LevelAlignment level(patches, image, camera, photometry, workspace);
   Alignment at = level.assess(start);
   at.converged = false;
+  at.information.setZero();
   double damping = 0.0;
-  NormalEquations n = level.equations(at);
+  NormalEquations n;
+  bool moved = true;  // since n was computed
   for (int i = 0; i < config.max_iterations && !at.converged; ++i) {
+    if (std::exchange(moved, false)) n = level.equations(at);
     const Vector8d step = solve(n, photometry.affine_brightness, damping);
     if (!step.allFinite()) break;
     const bool small = step_px(step, camera, mean_inverse_depth) < config.convergence_px;
-    if (level.try_step(at, step)) {
+    moved = level.try_step(at, step);
+    if (moved) {
       damping = damping > kFirstDamping ? 0.1 * damping : 0.0;
-      n = level.equations(at);
     } else {
       damping = std::max(kFirstDamping, 10.0 * damping);
     }
     at.converged = small || damping > kMostDamping;  // no descent left at all: a minimum
   }
+  if (!config.tells_information) return at;
+  if (moved) n = level.equations(at);
   at.information = marginal_information(n, photometry.affine_brightness, at.sigma_grey);
   return at;
 }

@@ -11,8 +11,9 @@
 namespace sparsight {
 
 struct AlignmentConfig {
-  int max_iterations = 30;       // per pyramid level
-  double convergence_px = 0.01;  // a step that moves the points by less ends the level
+  int max_iterations = 30;        // per pyramid level
+  double convergence_px = 0.01;   // a step that moves the points by less ends the level
+  bool tells_information = true;  // of the pose found; who only compares does without
 };
 
 // Where a frame stands relative to its keyframe, in space and brightness, and how well it fits.

@@ -4,8 +4,10 @@
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "slam/tracking/photometric_kernel.h"
@@ -69,21 +71,9 @@ HWY_INLINE VF pixel(VI row) {
 
 HWY_INLINE VF blend(VF from, VF to, VF share) { return hn::MulAdd(share, hn::Sub(to, from), from); }
 
-HWY_INLINE VectorSample sample_pixels(const ProjectionParameters& p, VF u, VF v) {
+// From the rows v0 - 1 .. v0 + 2, at u0 + a, v0 + b.
+HWY_INLINE VectorSample sample_rows(VI row0, VI row1, VI row2, VI row3, VF a, VF b) {
   const F f;
-  const I i;
-  const VI u0 = hn::ConvertTo(i, u);
-  const VI v0 = hn::ConvertTo(i, v);
-  const VF a = hn::Sub(u, hn::ConvertTo(f, u0));
-  const VF b = hn::Sub(v, hn::ConvertTo(f, v0));
-  const VI width = hn::Set(i, p.width);
-  const VI above = hn::Sub(hn::Add(hn::Mul(hn::Sub(v0, hn::Set(i, 1)), width), u0), hn::Set(i, 1));
-  const auto* base = reinterpret_cast<const std::int32_t*>(p.pixels);
-  const VI row0 = hn::GatherOffset(i, base, above);
-  const VI row1 = hn::GatherOffset(i, base, hn::Add(above, width));
-  const VI row2 = hn::GatherOffset(i, base, hn::Add(above, hn::Add(width, width)));
-  const VI row3 = hn::GatherOffset(i, base, hn::Add(above, hn::Mul(hn::Set(i, 3), width)));
-
   const VF half = hn::Set(f, 0.5F);
   const VF line0 = blend(pixel<1>(row0), pixel<2>(row0), a);
   const VF line1 = blend(pixel<1>(row1), pixel<2>(row1), a);
@@ -137,9 +127,25 @@ HWY_INLINE VF transformed(const ProjectionParameters& p, int row, VF x, VF y, VF
       hn::MulAdd(hn::Set(f, r[1]), y, hn::MulAdd(hn::Set(f, r[2]), z, hn::Set(f, r[3]))));
 }
 
-HWY_INLINE void linearize_block(const PatchSet& patches, const ProjectionParameters& p,
-                                std::size_t at, Linearization& out) {
+// So many entries at a time: their pixels are read one by one, which on most machines takes less
+// than gathering them, and what was just stored in parts cannot be loaded as a whole at once.
+constexpr std::size_t kChunk = 4 * PatchSet::kBlock;
+
+// Entries in the current frame, and the pixels around them.
+struct Chunk {
+  using Column = float[kChunk];
+  HWY_ALIGN Column x, y, z, inverse_z, xn, yn;  // the point, and its normalised coordinates
+  HWY_ALIGN Column xx, xy, yy;                  // how the lens changes them
+  HWY_ALIGN Column inside;                      // a mask
+  HWY_ALIGN Column a, b;                        // what is left of u and v, below 1
+  HWY_ALIGN std::int32_t first[kChunk];         // the first pixel's place in the image
+  HWY_ALIGN std::int32_t rows[4][kChunk];       // four pixels of each of the four rows
+};
+
+HWY_INLINE void project(const PatchSet& patches, const ProjectionParameters& p, std::size_t at,
+                        std::size_t k, Chunk& out) {
   const F f;
+  const I i;
   const VF X = hn::LoadU(f, patches.x.data() + at);
   const VF Y = hn::LoadU(f, patches.y.data() + at);
   const VF Z = hn::LoadU(f, patches.z.data() + at);
@@ -162,18 +168,61 @@ HWY_INLINE void linearize_block(const PatchSet& patches, const ProjectionParamet
               hn::And(hn::And(hn::Ge(u, one), hn::Ge(v, one)),
                       hn::And(hn::Lt(u, hn::Set(f, static_cast<float>(p.width - 2))),
                               hn::Lt(v, hn::Set(f, static_cast<float>(p.height - 2))))));
-  const VectorSample s =
-      sample_pixels(p, hn::IfThenElse(inside, u, one), hn::IfThenElse(inside, v, one));
+  const VF safe_u = hn::IfThenElse(inside, u, one);
+  const VF safe_v = hn::IfThenElse(inside, v, one);
+  const VI u0 = hn::ConvertTo(i, safe_u);
+  const VI v0 = hn::ConvertTo(i, safe_v);
+  const VI before = hn::Set(i, 1);
+  hn::Store(hn::Sub(hn::Add(hn::Mul(hn::Sub(v0, before), hn::Set(i, p.width)), u0), before), i,
+            out.first + k);
+  hn::Store(hn::Sub(safe_u, hn::ConvertTo(f, u0)), f, out.a + k);
+  hn::Store(hn::Sub(safe_v, hn::ConvertTo(f, v0)), f, out.b + k);
+  hn::Store(hn::VecFromMask(f, inside), f, out.inside + k);
+  hn::Store(x, f, out.x + k);
+  hn::Store(y, f, out.y + k);
+  hn::Store(z, f, out.z + k);
+  hn::Store(inverse_z, f, out.inverse_z + k);
+  hn::Store(xn, f, out.xn + k);
+  hn::Store(yn, f, out.yn + k);
+  hn::Store(d.xx, f, out.xx + k);
+  hn::Store(d.xy, f, out.xy + k);
+  hn::Store(d.yy, f, out.yy + k);
+}
+
+HWY_INLINE void read_pixels(const ProjectionParameters& p, std::size_t entries, Chunk& chunk) {
+  for (std::size_t k = 0; k < entries; ++k) {
+    const std::uint8_t* pixel = p.pixels + chunk.first[k];
+    for (std::size_t row = 0; row < 4; ++row, pixel += p.width) {
+      std::memcpy(&chunk.rows[row][k], pixel, sizeof(std::int32_t));
+    }
+  }
+}
+
+HWY_INLINE void differentiate(const PatchSet& patches, const ProjectionParameters& p,
+                              const Chunk& chunk, std::size_t at, std::size_t k,
+                              Linearization& out) {
+  const F f;
+  const I i;
+  const VectorSample s = sample_rows(hn::Load(i, chunk.rows[0] + k), hn::Load(i, chunk.rows[1] + k),
+                                     hn::Load(i, chunk.rows[2] + k), hn::Load(i, chunk.rows[3] + k),
+                                     hn::Load(f, chunk.a + k), hn::Load(f, chunk.b + k));
+  const VF x = hn::Load(f, chunk.x + k);
+  const VF y = hn::Load(f, chunk.y + k);
+  const VF z = hn::Load(f, chunk.z + k);
+  const VF inverse_z = hn::Load(f, chunk.inverse_z + k);
+  const VF xy = hn::Load(f, chunk.xy + k);
 
   // Chain rule: image gradient, distortion, perspective division.
   const VF fu = hn::Mul(hn::Set(f, p.fx), s.du);
   const VF fv = hn::Mul(hn::Set(f, p.fy), s.dv);
-  const VF gx = hn::Mul(inverse_z, hn::MulAdd(d.xx, fu, hn::Mul(d.xy, fv)));
-  const VF gy = hn::Mul(inverse_z, hn::MulAdd(d.xy, fu, hn::Mul(d.yy, fv)));
-  const VF gz = hn::Neg(hn::MulAdd(gx, xn, hn::Mul(gy, yn)));
+  const VF gx = hn::Mul(inverse_z, hn::MulAdd(hn::Load(f, chunk.xx + k), fu, hn::Mul(xy, fv)));
+  const VF gy = hn::Mul(inverse_z, hn::MulAdd(xy, fu, hn::Mul(hn::Load(f, chunk.yy + k), fv)));
+  const VF gz =
+      hn::Neg(hn::MulAdd(gx, hn::Load(f, chunk.xn + k), hn::Mul(gy, hn::Load(f, chunk.yn + k))));
 
   const VF expected = hn::MulAdd(hn::Set(f, p.gain), hn::LoadU(f, patches.intensity.data() + at),
                                  hn::Set(f, p.offset));
+  const auto inside = hn::MaskFromVec(hn::Load(f, chunk.inside + k));
   const auto keep = [&](VF value) { return hn::IfThenElseZero(inside, value); };
   hn::StoreU(keep(hn::Sub(s.value, expected)), f, out.residual.data() + at);
   hn::StoreU(keep(hn::LoadU(f, patches.weight.data() + at)), f, out.weight.data() + at);
@@ -188,7 +237,15 @@ HWY_INLINE void linearize_block(const PatchSet& patches, const ProjectionParamet
 
 void linearize_entries(const PatchSet& patches, const ProjectionParameters& p, Linearization& out) {
   const std::size_t step = hn::Lanes(F());
-  for (std::size_t at = 0; at < patches.entries(); at += step) linearize_block(patches, p, at, out);
+  Chunk chunk;
+  for (std::size_t first = 0; first < patches.entries(); first += kChunk) {
+    const std::size_t entries = std::min(kChunk, patches.entries() - first);
+    for (std::size_t k = 0; k < entries; k += step) project(patches, p, first + k, k, chunk);
+    read_pixels(p, entries, chunk);
+    for (std::size_t k = 0; k < entries; k += step) {
+      differentiate(patches, p, chunk, first + k, k, out);
+    }
+  }
 }
 
 // w(r) of eq. (5) times the entry's own weight.

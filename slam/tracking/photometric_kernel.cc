@@ -83,6 +83,7 @@ NormalEquations normal_equations_of(const NormalSums& sums) {
 }  // namespace
 
 void Linearization::resize(std::size_t entries) {
+  if (residual.size() == entries) return;
   residual.resize(entries);
   weight.resize(entries);
   for (std::vector<float>& column : J) column.resize(entries);

@@ -8,7 +8,8 @@ namespace sparsight {
 namespace {
 
 // Enough to leave a wrong start behind or to show that it is wrong.
-constexpr AlignmentConfig kFewSteps{.max_iterations = 15, .convergence_px = 0.1};
+constexpr AlignmentConfig kFewSteps{
+    .max_iterations = 15, .convergence_px = 0.1, .tells_information = false};
 
 void copy_patch(const std::vector<float>& from, std::size_t patch, std::vector<float>& to) {
   const auto first = from.begin() + static_cast<std::ptrdiff_t>(patch * kPatternSize);

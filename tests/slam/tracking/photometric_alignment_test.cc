@@ -96,6 +96,24 @@ TEST_F(PhotometricAlignment, KnowsLessOfThePoseIfBrightnessIsUnknown) {
   EXPECT_GT(less.eigenvalues().maxCoeff(), 0.0);
 }
 
+TEST_F(PhotometricAlignment, TellsTheInformationOfWhereItEnded) {
+  const Alignment start = from(exp_se3(0.02 * Vector6d::Ones()) * T_true_);
+  const Alignment at = aligned(image_, start, {}, {.max_iterations = 1});
+  ASSERT_LT(at.cost, 0.5 * aligned(image_, start, {}, {.max_iterations = 0}).cost);
+  const Matrix6d there = aligned(image_, at, {}, {.max_iterations = 0}).information;
+  EXPECT_LT((at.information - there).norm(), 5e-3 * there.norm());
+}
+
+TEST_F(PhotometricAlignment, EndsAtTheSamePlaceIfItDoesNotTellItsInformation) {
+  Alignment start = from(exp_se3(0.01 * Vector6d::Ones()) * T_true_);
+  const Alignment told = aligned(image_, start);
+  start.information = told.information;  // of another pose
+  const Alignment at = aligned(image_, start, {}, {.tells_information = false});
+  EXPECT_EQ(at.T_camera_keyframe.matrix(), told.T_camera_keyframe.matrix());
+  EXPECT_EQ(at.cost, told.cost);
+  EXPECT_EQ(at.information, Matrix6d::Zero());
+}
+
 // Pixels whose grey has nothing to do with the scene: a car passed through a tenth of them.
 TEST_F(PhotometricAlignment, IsLittleMovedByOutliers) {
   GreyImage image = image_;
