@@ -19,14 +19,13 @@ double sum_of_principal_minors(const Eigen::Matrix3d& c) {
 }
 
 // Newton's method from 0: the characteristic polynomial is convex there, so that no step passes the
-// smallest root, and where a plane is thin two or three reach it.
-double smallest_eigenvalue(const Eigen::Matrix3d& c, int most_steps) {
-  const double trace = c.trace();
-  const double minors = sum_of_principal_minors(c);
+// smallest root, and where a plane is thin two or three reach it. Once past `most` it goes no
+// further.
+double smallest_eigenvalue(const Eigen::Matrix3d& c, double trace, double minors, double most) {
   const double determinant = c.determinant();
   double root = 0.0;
   if (minors < kLeastMinors * trace * trace) return root;
-  for (int i = 0; i < most_steps; ++i) {
+  for (int i = 0; i < kMostSteps && root <= most; ++i) {
     const double value = determinant - root * (minors - root * (trace - root));
     const double slope = minors - root * (2.0 * trace - 3.0 * root);
     if (!(value > 0.0) || !(slope > 0.0)) break;
@@ -57,11 +56,14 @@ Eigen::Matrix3d PointMoments::covariance() const {
   return squares / count() - m * m.transpose();
 }
 
-PlaneAxes plane_axes(const Eigen::Matrix3d& c) {
-  const double smallest = smallest_eigenvalue(c, kMostSteps);
+std::optional<PlaneAxes> plane_axes(const Eigen::Matrix3d& c, double most_variance) {
+  const double trace = c.trace();
+  const double minors = sum_of_principal_minors(c);
+  const double smallest = smallest_eigenvalue(c, trace, minors, most_variance);
+  if (smallest > most_variance) return std::nullopt;
   // The two others, from their sum and their product.
-  const double half = 0.5 * (c.trace() - smallest);
-  const double product = sum_of_principal_minors(c) - smallest * 2.0 * half;
+  const double half = 0.5 * (trace - smallest);
+  const double product = minors - smallest * 2.0 * half;
   const double apart = std::sqrt(std::max(0.0, half * half - product));
   const Eigen::Vector3d variances(smallest, half - apart, half + apart);
   PlaneAxes axes{.extent = variances.cwiseMax(0.0).cwiseSqrt()};
@@ -70,7 +72,5 @@ PlaneAxes plane_axes(const Eigen::Matrix3d& c) {
   if (length > 0.0) axes.normal = normal / length;
   return axes;
 }
-
-double least_variance(const Eigen::Matrix3d& c) { return smallest_eigenvalue(c, 1); }
 
 }  // namespace sparsight

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
+#include <optional>
 
 namespace sparsight {
 
@@ -32,9 +34,8 @@ struct PlaneAxes {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit; zero: the points lie on a line
   Eigen::Vector3d extent = Eigen::Vector3d::Zero();  // rms along the axes, ascending
 };
-PlaneAxes plane_axes(const Eigen::Matrix3d& covariance);
-
-// No more than the smallest eigenvalue: the first step towards it.
-double least_variance(const Eigen::Matrix3d& covariance);
+// None if the points lie about the plane with more than `most_variance`.
+std::optional<PlaneAxes> plane_axes(const Eigen::Matrix3d& covariance,
+                                    double most_variance = std::numeric_limits<double>::infinity());
 
 }  // namespace sparsight

@@ -29,16 +29,14 @@ int column_of(const Eigen::Vector3f& p) {
 // The plane of returns; no normal if they do not lie on one.
 SweepSurface::Plane plane_through(const PointMoments& returns) {
   if (returns.count() < kFewestReturns) return {};
-  const Eigen::Matrix3d covariance = returns.covariance();
-  if (least_variance(covariance) > kThickest * kThickest) return {};
-  const PlaneAxes axes = plane_axes(covariance);
-  const double thickness = axes.extent.x();
-  if (thickness > kThickest) return {};
-  if (axes.extent.y() < kWidthOfThickness * std::max(thickness, kLeastThickness)) return {};
+  const auto axes = plane_axes(returns.covariance(), kThickest * kThickest);
+  if (!axes) return {};
+  const double thickness = axes->extent.x();
+  if (axes->extent.y() < kWidthOfThickness * std::max(thickness, kLeastThickness)) return {};
   return {.centre = returns.mean().cast<float>(),
-          .normal = axes.normal.cast<float>(),
+          .normal = axes->normal.cast<float>(),
           .thickness_m = static_cast<float>(thickness),
-          .reach_m = static_cast<float>(2.0 * axes.extent.z())};
+          .reach_m = static_cast<float>(2.0 * axes->extent.z())};
 }
 
 // Rows and columns around a bin: all, or at an edge of what is there one side of it, or a corner.
