@@ -129,7 +129,7 @@ HWY_INLINE VF transformed(const ProjectionParameters& p, int row, VF x, VF y, VF
 
 // So many entries at a time: their pixels are read one by one, which on most machines takes less
 // than gathering them, and what was just stored in parts cannot be loaded as a whole at once.
-constexpr std::size_t kChunk = 4 * PatchSet::kBlock;
+constexpr std::size_t kChunk = 8 * PatchSet::kBlock;
 
 // Entries in the current frame, and the pixels around them.
 struct Chunk {
