@@ -124,7 +124,8 @@ double step_px(const Vector8d& step, const CameraModel& camera, double mean_inve
 
 Alignment align(const PatchSet& patches, const GreyImage& image, const CameraModel& camera,
                 double mean_inverse_depth, const Alignment& start, const AlignmentConfig& config,
-                const PhotometryConfig& photometry, AlignmentWorkspace& workspace) {
+                const PhotometryConfig& photometry, AlignmentWorkspace& workspace,
+                Information information) {
   LevelAlignment level(patches, image, camera, photometry, workspace);
   Alignment at = level.assess(start);
   at.converged = false;
@@ -145,7 +146,7 @@ Alignment align(const PatchSet& patches, const GreyImage& image, const CameraMod
     }
     at.converged = small || damping > kMostDamping;  // no descent left at all: a minimum
   }
-  if (!config.tells_information) return at;
+  if (information == Information::kLeftOut) return at;
   if (moved) n = level.equations(at);
   at.information = marginal_information(n, photometry.affine_brightness, at.sigma_grey);
   return at;

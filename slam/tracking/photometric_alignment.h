@@ -11,9 +11,8 @@
 namespace sparsight {
 
 struct AlignmentConfig {
-  int max_iterations = 30;        // per pyramid level
-  double convergence_px = 0.01;   // a step that moves the points by less ends the level
-  bool tells_information = true;  // of the pose found; who only compares does without
+  int max_iterations = 30;       // per pyramid level
+  double convergence_px = 0.01;  // a step that moves the points by less ends the level
 };
 
 // Where a frame stands relative to its keyframe, in space and brightness, and how well it fits.
@@ -39,11 +38,15 @@ struct AlignmentWorkspace {
   }
 };
 
+enum class Information { kTold, kLeftOut };
+
 // Minimises eq. (4) at one pyramid level by Gauss–Newton, damped only after a step that failed.
-// mean_inverse_depth (1/m) of the patches turns a step into pixels. Thread-bound, deterministic.
+// mean_inverse_depth (1/m) of the patches turns a step into pixels. Who only compares poses does
+// without the information of the one found, which is zero then. Thread-bound, deterministic.
 Alignment align(const PatchSet& patches, const GreyImage& image, const CameraModel& camera,
                 double mean_inverse_depth, const Alignment& start, const AlignmentConfig& config,
-                const PhotometryConfig& photometry, AlignmentWorkspace& workspace);
+                const PhotometryConfig& photometry, AlignmentWorkspace& workspace,
+                Information information = Information::kTold);
 
 // Cost and sigma of a pose as it is, without a step; the linearisation is left in
 // workspace.current.

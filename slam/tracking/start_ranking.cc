@@ -8,8 +8,7 @@ namespace sparsight {
 namespace {
 
 // Enough to leave a wrong start behind or to show that it is wrong.
-constexpr AlignmentConfig kFewSteps{
-    .max_iterations = 15, .convergence_px = 0.1, .tells_information = false};
+constexpr AlignmentConfig kFewSteps{.max_iterations = 15, .convergence_px = 0.1};
 
 void copy_patch(const std::vector<float>& from, std::size_t patch, std::vector<float>& to) {
   const auto first = from.begin() + static_cast<std::ptrdiff_t>(patch * kPatternSize);
@@ -49,8 +48,8 @@ void rank_starts(const std::vector<Alignment>& starts, const PatchSet& patches,
   ranked.clear();
   for (const Alignment& start : starts) {
     if (budget && !budget->allows(SearchBudget::Step::kRank)) break;
-    const Alignment at =
-        align(patches, image, camera, mean_inverse_depth, start, kFewSteps, photometry, workspace);
+    const Alignment at = align(patches, image, camera, mean_inverse_depth, start, kFewSteps,
+                               photometry, workspace, Information::kLeftOut);
     const PatchAgreement agreement = patch_agreement(patches, workspace.current, at.brightness);
     if (agreement.visible_patches < min_visible) continue;
     // Behind its equals; std::stable_sort would allocate.

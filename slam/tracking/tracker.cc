@@ -117,12 +117,11 @@ Alignment Tracker::refine(const TrackingTarget& keyframe, const ImagePyramid& im
                           const Alignment& start, int coarsest, int finest,
                           const PhotometryConfig& photometry) {
   Alignment at = start;
-  AlignmentConfig alignment = config_.alignment;
   for (int level = coarsest; level >= finest; --level) {
     const auto index = static_cast<std::size_t>(level);
-    alignment.tells_information = level == finest;
     at = align(keyframe.patches[index], image.level(level), cameras_[index],
-               keyframe.mean_inverse_depth, at, alignment, photometry, workspace_);
+               keyframe.mean_inverse_depth, at, config_.alignment, photometry, workspace_,
+               level == finest ? Information::kTold : Information::kLeftOut);
   }
   return at;
 }

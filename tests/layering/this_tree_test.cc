@@ -23,7 +23,7 @@ TEST(ThisTree, IsRead) {
   EXPECT_TRUE(std::ranges::count(sources(), "tests/layering/this_tree_test.cc", &SourceFile::path));
   const auto main = std::ranges::find(sources(), "tools/sparsight/main.cc", &SourceFile::path);
   ASSERT_NE(main, sources().end());
-  EXPECT_TRUE(std::ranges::count(main->includes, "tools/sparsight/subcommands.h", &Include::path));
+  EXPECT_TRUE(std::ranges::count(main->includes, "tools/sparsight/command_line.h", &Include::path));
 }
 
 TEST(ThisTree, PointsItsLayersOneWay) { EXPECT_THAT(check_layers(sources()), IsEmpty()); }

@@ -12,9 +12,10 @@ namespace {
 class PhotometricAlignment : public testing::Test {
  protected:
   Alignment aligned(const GreyImage& image, const Alignment& start,
-                    const PhotometryConfig& photometry = {}, const AlignmentConfig& config = {}) {
+                    const PhotometryConfig& photometry = {}, const AlignmentConfig& config = {},
+                    Information information = Information::kTold) {
     return align(keyframe_.patches[0], image, room_.camera(), keyframe_.mean_inverse_depth, start,
-                 config, photometry, workspace_);
+                 config, photometry, workspace_, information);
   }
   static Alignment from(const Eigen::Isometry3d& T_camera_keyframe) {
     Alignment start;
@@ -108,7 +109,7 @@ TEST_F(PhotometricAlignment, EndsAtTheSamePlaceIfItDoesNotTellItsInformation) {
   Alignment start = from(exp_se3(0.01 * Vector6d::Ones()) * T_true_);
   const Alignment told = aligned(image_, start);
   start.information = told.information;  // of another pose
-  const Alignment at = aligned(image_, start, {}, {.tells_information = false});
+  const Alignment at = aligned(image_, start, {}, {}, Information::kLeftOut);
   EXPECT_EQ(at.T_camera_keyframe.matrix(), told.T_camera_keyframe.matrix());
   EXPECT_EQ(at.cost, told.cost);
   EXPECT_EQ(at.information, Matrix6d::Zero());
