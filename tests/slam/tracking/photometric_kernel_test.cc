@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "slam/tracking/photometric_reference.h"
 #include "tests/numeric_jacobian.h"
@@ -93,6 +95,30 @@ class PhotometricKernel : public testing::TestWithParam<bool> {
  protected:
   const View view_{GetParam()};
 };
+
+// Entries are taken many at a time, and what is left over at the end.
+TEST_P(PhotometricKernel, GivesAnEntryTheSameWhateverNumberFollowsIt) {
+  const Linearization all = view_.pass().linearization;
+  for (const std::size_t entries : {16U, 112U, 128U, 144U, 272U}) {
+    ASSERT_LT(entries, all.residual.size());
+    PatchSet fewer = view_.patches;
+    fewer.patches = entries / kPatternSize;
+    for (std::vector<float>* column :
+         {&fewer.x, &fewer.y, &fewer.z, &fewer.intensity, &fewer.weight}) {
+      column->resize(entries);
+    }
+    Linearization some;
+    linearize(fewer, view_.image, view_.room.camera(), view_.T_camera_keyframe, view_.brightness,
+              some);
+    const auto is_start_of = [](const std::vector<float>& a, const std::vector<float>& b) {
+      return std::equal(a.begin(), a.end(), b.begin());
+    };
+    EXPECT_EQ(some.residual.size(), entries);
+    EXPECT_TRUE(is_start_of(some.residual, all.residual)) << entries;
+    EXPECT_TRUE(is_start_of(some.weight, all.weight)) << entries;
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_TRUE(is_start_of(some.J[k], all.J[k])) << entries;
+  }
+}
 
 TEST_P(PhotometricKernel, AgreesWithTheReferenceOnEveryInstructionSet) {
   Linearization expected;
